@@ -132,17 +132,19 @@ as_documented() (
 
 # The image is written anew, and what the PC had on its data partition is put back, in another machine.
 written_anew_it_is_as_before() {
-  local disk=$pc_folder/anew.img status
-  pc_disk=()
+  local disk=$pc_folder/bios.img status
   if ! PATH=$PATH:/usr/sbin:/sbin losetup -f >/dev/null 2>&1; then
     echo "not tried: a loop device, which is root's to make"
     return 0
   fi
-  need_product && claimed_disk "$disk" && restore_pc "$claimed/bios.memory" anew bios "$disk" -no-reboot && log_in &&
+  need_product && need_claimed_pc && cp --sparse=always "$claimed"/bios.{img,log} "$pc_folder/" || return
+  disk_of_log bios "$disk" append
+  restore_pc "$claimed/bios.memory" anew bios "$disk" -no-reboot && log_in &&
     ask_panel api/v1/control/take -b "$pc_folder/cookies" -o "$pc_folder/taken.json" -X POST || return
   status="$(change_speed 0.777) $(try_to_save)"
   [[ $status == '200 200' ]] || { echo "set and save were answered: $status $(<"$pc_folder/set.json") $(<"$pc_folder/saved.json")" && return 1; }
   stop_pc
+  pc_disk=()
   as_documented "$disk" && start_pc again bios "$disk" -no-reboot && await_line 'the cell runs' && log_in || return
   [[ $(fingerprint) == "$(<"$claimed/fingerprint")" ]] || { echo "the panel has another certificate than before" && return 1; }
   ask_panel api/v1/components/pick/parameters -b "$pc_folder/cookies" | jq -e '.runtime.speed == 0.777' || return
