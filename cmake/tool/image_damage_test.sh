@@ -118,16 +118,18 @@ data_is_full() {
 # as_documented DISK: what docs/industrial-pc.md says of writing the image anew, word for word, with mounts of its own, so that this machine's
 # disks have no part in it
 as_documented() (
-  local loop words
-  loop=$(PATH=$PATH:/usr/sbin:/sbin losetup -P -f --show "$1" 2>&1) || { printf '%s\n' "$loop" && return 1; }
-  trap 'PATH=$PATH:/usr/sbin:/sbin losetup -d "$loop"' EXIT
+  local loop data first words
+  read -r first _ < <(partition_of "$1" data) && PATH=$PATH:/usr/sbin:/sbin || return
+  # Its data by a device of its own, as not every machine makes those of a loop device's partitions.
+  loop=$(losetup -f --show "$1" 2>&1) && data=$(losetup -f --show -o $((first * 512)) "$1" 2>&1) || { printf '%s\n' "$loop" "$data" && return 1; }
+  trap 'losetup -d "$loop" "$data"' EXIT
   words=$(sed -n '/^### Writing the image anew/,/^### /s/^    //p' "$root/docs/industrial-pc.md" |
-    sed "s|^\./flexrf|$root/flexrf|; s|build/image/pick-station.img|$pc_shared/product.img|; s|/dev/sdX|$loop --yes|")
+    sed "s|\./flexrf|$root/flexrf|; s|build/image/pick-station.img|$pc_shared/product.img|; s|/dev/sdX|$loop --yes|")
   [[ $words == *cp*flash*cp* ]] || { printf 'the steps are not found: %s\n' "$words" && return 1; }
   rm -rf "$pc_folder/other-machine" && mkdir -p "$pc_folder/other-machine" /dev/disk && cd "$pc_folder/other-machine" || return
   # shellcheck disable=SC2016 # expands inside
   unshare --mount bash -e -c 'mount -t tmpfs none /dev/disk && mkdir /dev/disk/by-partlabel && ln -s "$1" /dev/disk/by-partlabel/data && eval "$2"' \
-    recovery "${loop}p7" "$words" >steps.log 2>&1 || { cat steps.log && return 1; }
+    recovery "$data" "$words" >steps.log 2>&1 || { cat steps.log && return 1; }
 )
 
 # The image is written anew, and what the PC had on its data partition is put back, in another machine.
