@@ -121,7 +121,9 @@ as_documented() (
   local loop data first words
   read -r first _ < <(partition_of "$1" data) && PATH=$PATH:/usr/sbin:/sbin || return
   # Its data by a device of its own, as not every machine makes those of a loop device's partitions.
-  loop=$(losetup -f --show "$1" 2>&1) && data=$(losetup -f --show -o $((first * 512)) "$1" 2>&1) || { printf '%s\n' "$loop" "$data" && return 1; }
+  loop=$(losetup -f --show "$1" 2>&1) || { printf '%s\n' "$loop" && return 1; }
+  trap 'losetup -d "$loop"' EXIT
+  data=$(losetup -f --show -o $((first * 512)) "$1" 2>&1) || { printf '%s\n' "$data" && return 1; }
   trap 'losetup -d "$loop" "$data"' EXIT
   words=$(sed -n '/^### Writing the image anew/,/^### /s/^    //p' "$root/docs/industrial-pc.md" |
     sed "s|\./flexrf|$root/flexrf|; s|build/image/pick-station.img|$pc_shared/product.img|; s|/dev/sdX|$loop --yes|")

@@ -112,9 +112,9 @@ class Control {
   }
   bool safe_state_latched() const noexcept { return safe_state_.load(std::memory_order_acquire); }
 
-  /// What tells the time of a Start; null: CLOCK_MONOTONIC. While nobody can give one.
+  /// The clock that a Start is stamped with; null: CLOCK_MONOTONIC. To be called while no Start can be given.
   void use_clock(const Time* clock) noexcept { clock_ = clock; }
-  /// When the newest Start was given that was not one already; no time: none was.
+  /// When motion was permitted last by a Start; a further Start meanwhile does not count. No time: by none.
   Time started_at() const noexcept { return Time{Duration{started_at_.load(std::memory_order_acquire)}}; }
 
   /// autostart: actuators may move from power-on. Before anything is initialised, so that no unit takes the
@@ -171,7 +171,7 @@ class Control {
     const std::uint64_t before = permission_.load(std::memory_order_seq_cst);
     if (const Status status = check_start(); !status) return status;
     if ((before & granted) == 0) {
-      // Before the permission, so that whoever sees that sees this.
+      // Stored before the permission is granted: a thread that sees the permission reads its time.
       const Time now = clock_ != nullptr ? *clock_ : MonotonicClock::now();
       started_at_.store(nanoseconds(now), std::memory_order_release);
     }

@@ -46,7 +46,7 @@ void KeyboardRobot::step(const Tick& tick) {
     }
     if (follows && tick.stop_requested) motion_.stop();
   }
-  // Whether a key of the first cycle after a Start was pressed before it is not known.
+  // Keys carry no time: one that is read in the first cycle after a Start may have been pressed before it.
   const bool was_inhibited = std::exchange(was_inhibited_, tick.motion_inhibited);
   if (state && follows && !was_inhibited && !tick.stop_requested) {
     follow_keys();

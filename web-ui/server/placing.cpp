@@ -8,11 +8,11 @@
 namespace flexrf::panel {
 namespace {
 
-/// For a place: requests that are under way are done by then.
+/// A client waits so long for a place: requests that are under way are done by then.
 constexpr Duration patience = std::chrono::seconds{3};
-/// Where others are given places meanwhile, as long as browsers wait.
+/// A client waits so long where others get places meanwhile; a browser waits longer.
 constexpr Duration longest_patience = std::chrono::seconds{30};
-/// Two of each address in a network of 256, which one host may have all of.
+/// Clients in the queue: two for each address of a network of 256, all of which one host may have.
 constexpr std::size_t most_waiting = 512;
 
 }  // namespace
@@ -119,7 +119,8 @@ void Server::welcome(Socket socket) {
   newcomers_.push_back(std::move(newcomer));
 }
 
-/// In the order in which they came, so that a crowd delays others, and does not keep them out.
+/// Gives places in the order in which clients came, so that a crowd delays others, and does not keep them
+/// out.
 void Server::place_newcomers() {
   bool none_is_left = false;
   bool none_for_remote = false;
@@ -133,18 +134,17 @@ void Server::place_newcomers() {
     const Bound bound = bound_of(newcomer->address);
     none_is_left = none_is_left || bound == Bound::none;
     none_for_remote = none_for_remote || bound == Bound::of_remote;
-    newcomer = has_waited_enough(*newcomer, bound) ? newcomers_.erase(newcomer) : newcomer + 1;
+    newcomer = turn_away_in_time(*newcomer, bound) ? newcomers_.erase(newcomer) : newcomer + 1;
   }
 }
 
-/// And is told so, if there is somebody to tell it.
-bool Server::has_waited_enough(Newcomer& newcomer, Bound bound) {
-  const Duration waited = surroundings_.now - newcomer.since;
-  if (waited < patience) return false;
+/// When the client has waited long enough. False: it stays in the queue.
+bool Server::turn_away_in_time(Newcomer& newcomer, Bound bound) {
   const bool others_get_places = bound != Bound::of_address && surroundings_.now - placed_at_ < patience;
-  if (others_get_places && waited < longest_patience) return false;
-  return turn_away(newcomer.socket, bound) || waited >= longest_patience + patience ||
-         (!others_get_places && waited >= 2 * patience);
+  const Duration enough = others_get_places ? longest_patience : patience;
+  const Duration waited = surroundings_.now - newcomer.since;
+  // Without an answer only if all porters stay busy.
+  return waited >= enough && (turn_away(newcomer.socket, bound) || waited >= enough + patience);
 }
 
 /// Who is turned away is heard, and told: he may not begin to speak before (TLS), and closing with something

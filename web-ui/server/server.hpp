@@ -69,7 +69,7 @@ class Server final : public LaterReplies {
   bool place(Newcomer& newcomer);
   void welcome(Socket socket);
   void place_newcomers();
-  bool has_waited_enough(Newcomer& newcomer, Bound bound);
+  bool turn_away_in_time(Newcomer& newcomer, Bound bound);
   bool turn_away(Socket& socket, Bound bound);
 
   void beat();

@@ -110,7 +110,7 @@ void start_lets_move_and_stop_motion_ends_it_in_the_next_period() {
 // [stop-96]
 void a_step_may_follow_what_was_asked_for_since_the_start() {
   Machine machine(false, milliseconds{40}, [](Machine& self, std::uint64_t number) {
-    // A Start while motion is permitted begins nothing anew.
+    // At 15 motion is permitted already: that Start does not count.
     if ((number == 10 || number == 15 || number == 30) && !self.control().start_motion())
       throw CheckFailed{"Start was refused"};
     if (number == 20) self.control().stop_motion();

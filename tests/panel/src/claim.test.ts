@@ -50,7 +50,7 @@ async function tokenOf(port: string, localAddress?: string): Promise<string> {
   return token;
 }
 
-/** One host with 250 addresses: from each it takes what connections it gets, and guesses, until it is over. */
+/** A host with 250 addresses: from each it opens connections and leaves them idle, and guesses codes, until `over`. */
 function besieged(port: string): { guesses: number; over: boolean } {
   const siege = { guesses: 0, over: false };
   const pause = (): Promise<void> => new Promise((resolve) => setTimeout(resolve, 100));
@@ -82,7 +82,7 @@ function besieged(port: string): { guesses: number; over: boolean } {
   return siege;
 }
 
-/** As somebody who reads the code, and tries again whenever the page does not come. */
+/** What the person at the console does: types the code, and tries again whenever the page does not come. */
 async function claimInSpite(port: string, code: () => string): Promise<void> {
   for (;;) {
     try {

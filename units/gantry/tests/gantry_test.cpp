@@ -40,12 +40,12 @@ struct World {
     assert_true(x.driver().initialise().is_ok() && z.driver().initialise().is_ok());
     assert_true(bench.unit().initialise().is_ok());
   }
-  /// Who gives the order says it again and again, unless it is said once.
-  void run(int cycles, bool again = true) {
+  /// The order is published in each cycle, as a sequence does, unless `publishes` is false.
+  void run(int cycles, bool publishes = true) {
     for (int n = 0; n < cycles; ++n) {
       x.receive(cycle);
       z.receive(cycle);
-      if (again) order.publish(wanted, bench.now());
+      if (publishes) order.publish(wanted, bench.now());
       bench.step(cycle);
       x.send();
       z.send();
