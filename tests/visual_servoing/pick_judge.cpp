@@ -21,6 +21,7 @@ void PickJudge::look() {
   const PartPickerFeedback& told = cell_.picker();
   if (told.state != state_ && verbose)
     std::printf("%8.3f  %2d  %s\n", cell_.elapsed(), static_cast<int>(told.state), cell_.message().c_str());
+  if (told.state != state_ && verbose && told.state == PickerState::blocked) tell_obstacles();
   if (is_under_way_ && told.binned != binned_) {
     end("", true);
   } else if (is_under_way_ && told.state != state_) {
@@ -29,6 +30,7 @@ void PickJudge::look() {
       case PickerState::descending:
       case PickerState::lifting:
       case PickerState::carrying:
+      case PickerState::looking_into_bin:
       case PickerState::lowering:
       case PickerState::releasing:
         break;
@@ -48,6 +50,16 @@ void PickJudge::look() {
   begun_ = told.approaches;
   binned_ = told.binned;
   state_ = told.state;
+}
+
+void PickJudge::tell_obstacles() const {
+  const auto list = cell_.newest<TrackList>("tracks");
+  for (const ObjectTrack& track : list.tracks)
+    if (track.found == VisualClass::obstacle)
+      std::printf(
+          "%8.3f      obstacle %u at %.3f %.3f, radius %.3f, height %.3f, %s, in %u pictures, missed %u\n",
+          cell_.elapsed(), track.identity, track.position[0], track.position[1], track.radius,
+          track.body_height, track.confirmed ? "confirmed" : "not confirmed", track.frames, track.misses);
 }
 
 void PickJudge::measure() {

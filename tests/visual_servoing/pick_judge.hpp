@@ -35,6 +35,7 @@ class PickJudge {
 
  private:
   void measure();
+  void tell_obstacles() const;
   void end(const std::string& cause, bool binned);
 
   ServoingCell& cell_;

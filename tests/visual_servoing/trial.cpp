@@ -1,28 +1,40 @@
-// One run of the cell in virtual time, judged by the truth: `visual_servoing_trial SEED SECONDS [-v]`. The
-// last line is for programs: approaches, picks, good ones, contacts, touches, s of virtual time, digest.
+// One run of the cell in virtual time, judged by the truth: `visual_servoing_trial SEED SECONDS [-d] [-v]`;
+// with -d a person disturbs it all the time. The last line is for programs: approaches, picks, good ones,
+// contacts, touches, s of virtual time, digest.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
+#include "tests/visual_servoing/disturber.hpp"
 #include "tests/visual_servoing/pick_judge.hpp"
 
 int main(int count, char** arguments) {
   using namespace flexrf;
   using namespace flexrf::visual_servoing;
   if (count < 3) {
-    std::fprintf(stderr, "visual_servoing_trial SEED SECONDS [-v]\n");
+    std::fprintf(stderr, "visual_servoing_trial SEED SECONDS [-d] [-v]\n");
     return 1;
   }
   try {
-    ServoingCell cell(std::strtoull(arguments[1], nullptr, 10));
+    const std::uint64_t seed = std::strtoull(arguments[1], nullptr, 10);
+    bool disturbs = false;
+    bool tells = false;
+    for (int i = 3; i < count; ++i) {
+      disturbs = disturbs || std::string_view{arguments[i]} == "-d";
+      tells = tells || std::string_view{arguments[i]} == "-v";
+    }
+    ServoingCell cell(seed);
     PickJudge judge(cell);
-    judge.verbose = count > 3 && std::string_view{arguments[3]} == "-v";
+    Disturber person(cell, seed);
+    judge.verbose = person.verbose = tells;
     std::uint64_t contacts = 0;
     cell.run(duration_of(std::strtod(arguments[2], nullptr)), [&] {
       judge.look();
+      if (disturbs) person.look();
       if (cell.table().contacts != contacts)
-        std::printf("%8.3f  contact, while: %s\n", cell.elapsed(), cell.message().c_str());
+        std::printf("%8.3f  contact, while: %s; the person's last deed: %s\n", cell.elapsed(),
+                    cell.message().c_str(), person.deed().c_str());
       contacts = cell.table().contacts;
     });
     std::size_t binned = 0;

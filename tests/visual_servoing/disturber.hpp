@@ -1,0 +1,42 @@
+// Disturber: a person beside the table who leaves nothing as it is, at instants that a seed decides.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hal/scene/world/scene_random.hpp"
+#include "tests/visual_servoing/servoing_cell.hpp"
+
+namespace flexrf::visual_servoing {
+
+/// Every one to six seconds: other light, between all that the table permits; an obstacle beside the part
+/// that is gone to, beside a bin's middle, or anywhere; added obstacles taken away; a part pushed; the lens
+/// covered for a while; the table laid anew. What lies within `hands_off` of the hand while that goes down
+/// without looking is left alone: nobody could avoid that.
+class Disturber {
+ public:
+  Disturber(ServoingCell& cell, std::uint64_t seed) : cell_(cell) { random_.seed(seed); }
+  /// Once in each cycle.
+  void look();
+  /// What the person did last, in words.
+  const std::string& deed() const { return deed_; }
+  bool verbose = false;
+
+ private:
+  static constexpr double hands_off = 0.20;  // m
+  void begin();
+  void change_light();
+  void choose_place();
+  bool is_too_near() const;
+  void tell(const std::string& deed);
+
+  ServoingCell& cell_;
+  SceneRandom random_;
+  std::string deed_;
+  double next_ = 2;                // s since the start
+  const char* button_ = nullptr;   // to be pressed once its place is set
+  double uncover_ = 0;             // s since the start; 0: the lens is free
+  std::array<double, 2> place_{};  // m
+};
+
+}  // namespace flexrf::visual_servoing
