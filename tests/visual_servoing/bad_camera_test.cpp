@@ -1,5 +1,7 @@
 // The cell of apps/visual-servoing with a bad camera, in virtual time: what its operator reads, that the arm
 // holds where it should, and how it goes on.
+#include <array>
+
 #include "tests/visual_servoing/trouble.hpp"
 
 namespace flexrf::visual_servoing {
@@ -12,8 +14,8 @@ struct BadPictures {
   CameraFault fault = CameraFault::none;
   PickerState during = PickerState::approaching;
   PictureState told = PictureState::good;
-  const char* trouble = "";                                   ///< told by features, and in the log
-  const char* message = "no picture that can be used comes";  ///< by the picker
+  const char* trouble = "";  ///< told by features, and in the log
+  const char* message = "";  ///< by the picker
   Duration lasts = seconds(1);
 };
 
@@ -52,7 +54,8 @@ void no_camera() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::unplugged,
                                          .during = PickerState::approaching,
                                          .told = PictureState::silent,
-                                         .trouble = "no picture comes"});
+                                         .trouble = "no picture comes",
+                                         .message = "no picture comes"});
   CHECK(was_said("is it plugged in?"));
 }
 
@@ -61,7 +64,8 @@ void black_pictures_on_the_way_down() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::black,
                                          .during = PickerState::descending,
                                          .told = PictureState::black,
-                                         .trouble = "is the lens covered, or the light out?"});
+                                         .trouble = "is the lens covered, or the light out?",
+                                         .message = "the picture is black"});
 }
 
 // [trouble-3]
@@ -69,7 +73,8 @@ void a_frozen_picture_with_a_part_in_hand() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::frozen,
                                          .during = PickerState::carrying,
                                          .told = PictureState::frozen,
-                                         .trouble = "the camera repeats a picture"});
+                                         .trouble = "the camera repeats a picture",
+                                         .message = "the camera repeats a picture"});
 }
 
 // [trouble-4]
@@ -77,7 +82,8 @@ void pictures_of_the_wrong_size() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::wrong_size,
                                          .during = PickerState::surveying,
                                          .told = PictureState::wrong_format,
-                                         .trouble = "not rgb24 of 640x480"});
+                                         .trouble = "not rgb24 of 640x480",
+                                         .message = "a format that cannot be used"});
 }
 
 // [trouble-5]
@@ -85,7 +91,8 @@ void noise_as_a_part_is_lifted() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::noise,
                                          .during = PickerState::lifting,
                                          .told = PictureState::noise,
-                                         .trouble = "the picture is noise"});
+                                         .trouble = "the picture is noise",
+                                         .message = "the picture is noise"});
 }
 
 /// It does not go a bit with each.
@@ -97,6 +104,59 @@ void one_picture_a_second() {
                                          .trouble = "pictures come too seldom",
                                          .message = "come too seldom",
                                          .lasts = milliseconds(2400)});
+}
+
+/// Of the table's page, at their ends.
+struct Light {
+  double intensity = 1;
+  double elevation = 1.1;
+  std::array<double, 3> tint{};
+  PictureState told = PictureState::good;
+  const char* message = "";
+};
+
+void the_arm_holds_until_the_light_is_good(const Light& light) {
+  Trouble trouble;
+  const auto give = [&](const Light& given) {
+    trouble.cell.set("table", "light_intensity", given.intensity);
+    trouble.cell.set("table", "light_elevation", given.elevation);
+    trouble.cell.set("table", "light_tint", given.tint);
+  };
+  trouble.cell.when_in(PickerState::approaching, [&] { give(light); })
+      .when_in(PickerState::no_sight)
+      .after(braking, [&] { trouble.begin_stillness(); })
+      .after(seconds(1),
+             [&] {
+               trouble.check_stillness();
+               CHECK_EQUAL(trouble.picker.state, PickerState::no_sight);
+               trouble.check_message("The camera tells nothing, the arm holds: ", "See to the camera");
+               CHECK_CONTAINS(trouble.picker.message_view(), light.message);
+               CHECK_EQUAL(trouble.features.state, light.told);
+               trouble.remember();
+               give({});
+             })
+      .when("it goes on", [&] { return trouble.has_gone_on(); });
+  CHECK_EQUAL(trouble.run(), 0);
+}
+
+// [trouble-14]
+void light_that_is_too_dark() {
+  the_arm_holds_until_the_light_is_good(
+      {.intensity = 0.2, .elevation = 0.5, .told = PictureState::too_dark, .message = "too dark to tell"});
+}
+
+// [trouble-14]
+void light_that_is_too_bright() {
+  the_arm_holds_until_the_light_is_good({.intensity = 2,
+                                         .elevation = 1.57,
+                                         .told = PictureState::too_bright,
+                                         .message = "colours are saturated"});
+}
+
+// [trouble-14]
+void coloured_light() {
+  the_arm_holds_until_the_light_is_good(
+      {.tint = {0.5, -0.5, -0.5}, .told = PictureState::colour_cast, .message = "so coloured"});
 }
 
 /// Each second one is used.
@@ -147,6 +207,9 @@ int main() {
       TEST_APART(pictures_of_the_wrong_size),
       TEST_APART(noise_as_a_part_is_lifted),
       TEST_APART(one_picture_a_second),
+      TEST_APART(light_that_is_too_dark),
+      TEST_APART(light_that_is_too_bright),
+      TEST_APART(coloured_light),
       TEST_APART(pictures_out_of_order),
   };
   return cmocka_run_group_tests_name("visual servoing with a bad camera", tests, nullptr, nullptr);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "hal/scene/interface/part_catalogue.hpp"
 #include "tests/visual_servoing/pick_judge.hpp"
 #include "types/joint_state.hpp"
 #include "types/pose.hpp"
@@ -117,6 +118,48 @@ void a_person_changes_light_parts_and_obstacles() {
     if (one.binned) CHECK(one.is_good());
 }
 
+/// Beside the middle of the bin that a part is being brought to, so far along its x.
+void put_an_obstacle_into_the_bin(ServoingCell& cell, double aside) {
+  cell.when_in(PickerState::carrying);
+  cell.after(std::chrono::milliseconds(600), [&cell, aside] {
+    const PlaneVector bin = part_bins[cell.picker().target_kind].middle;
+    cell.set("table", "place", std::array<double, 2>{bin.x + aside, bin.y});
+  });
+  cell.after(std::chrono::milliseconds(50), [&cell] { cell.press("table", "add_obstacle"); });
+}
+
+// [picker-5]
+void an_obstacle_in_the_bin_is_seen_and_remembered() {
+  ServoingCell cell(1);
+  std::uint64_t binned = 0;
+  put_an_obstacle_into_the_bin(cell, 0);
+  cell.when_in(PickerState::blocked, [&] {
+    CHECK(cell.message().find("obstacle stands in the bin") != std::string::npos);
+    binned = cell.picker().binned;
+  });
+  cell.after(whole_run, [&] {
+    CHECK(cell.picker().state == PickerState::blocked);
+    CHECK_EQUAL(cell.picker().binned, binned);
+    cell.press("table", "remove_obstacles");
+  });
+  cell.when("the part is in its bin", [&] { return cell.picker().binned > binned; });
+  cell.run(2 * whole_run);
+  CHECK_EQUAL(cell.table().contacts, 0U);
+  CHECK_EQUAL(cell.picker().lost_parts, 0U);
+}
+
+// [picker-5]
+void beside_an_obstacle_in_the_bin_there_is_room() {
+  ServoingCell cell(1);
+  std::uint64_t binned = 0;
+  put_an_obstacle_into_the_bin(cell, 0.06);
+  cell.after(Duration{}, [&] { binned = cell.picker().binned; });
+  cell.when("the part is in its bin", [&] { return cell.picker().binned > binned; });
+  cell.run(whole_run);
+  CHECK_EQUAL(cell.table().contacts, 0U);
+  CHECK_EQUAL(cell.picker().lost_parts, 0U);
+}
+
 // [picker-4]
 void the_lens_is_covered_and_the_arm_holds() {
   ServoingCell cell(4);
@@ -149,6 +192,8 @@ int main() {
       TEST_APART(the_arm_keeps_picking),
       cmocka_unit_test(two_runs_have_the_same_digest),
       TEST_APART(a_person_changes_light_parts_and_obstacles),
+      TEST_APART(an_obstacle_in_the_bin_is_seen_and_remembered),
+      TEST_APART(beside_an_obstacle_in_the_bin_there_is_room),
       TEST_APART(the_lens_is_covered_and_the_arm_holds),
   };
   return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -5,6 +5,7 @@
 
 #include "units/vision/attention_genes.hpp"
 #include "units/vision/hidden_part.hpp"
+#include "units/vision/watched_place.hpp"
 
 namespace flexrf::user {
 namespace {
@@ -17,6 +18,8 @@ constexpr double all_of_an_outline = 0.99;
 constexpr double place_of_a_piece = 0.02;    // m, standard deviation
 constexpr double place_of_obstacle = 0.003;  // m, likewise, of one that is seen wholly
 constexpr double least_seen = 0.6;           // part of a predicted region that lies within the picture
+constexpr double around_watched = 0.015;     // m of the table that are looked at around a watched place
+constexpr double watched_score = 2;          // before what is measured in each picture
 
 double height_of(std::uint16_t kind) {
   const auto parts = known_parts();
@@ -36,6 +39,7 @@ bool is_piece(const VisionVerdict& verdict) {
 
 Status ObjectTracks::initialise() {
   list_ = {};
+  watched_ = {};
   beside_ = {};
   read_ = {};
   is_changed_ = false;
@@ -52,6 +56,7 @@ void ObjectTracks::step(const Tick& tick) {
     for (std::size_t i = 0; i < most_tracks; ++i) end(i);
   const auto hand = in_hand.latest();
   blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
+  watch(hand ? &*hand : nullptr);
   if (hand && hand->holds)
     if (const std::size_t held = track_of(hand->track); held < most_tracks) end(held);
   read_verdicts();
@@ -67,6 +72,18 @@ void ObjectTracks::step(const Tick& tick) {
   }
   if (is_changed_) publish();
   is_changed_ = false;
+}
+
+/// A place that is asked for anew has not been looked at yet.
+void ObjectTracks::watch(const TargetInHand* hand) noexcept {
+  const TargetInHand asked = hand != nullptr ? *hand : TargetInHand{};
+  if (asked.watch != watched_.watch || asked.watch_angle != watched_.watch_angle ||
+      asked.watch_from != watched_.watch_from || asked.watch_to != watched_.watch_to) {
+    is_changed_ = is_changed_ || list_.watched_at != 0;
+    list_.watched_at = 0;
+    list_.watched = {asked.watch[0], asked.watch[1], asked.watch_angle};
+  }
+  watched_ = asked;
 }
 
 void ObjectTracks::read_verdicts() noexcept {
@@ -97,10 +114,25 @@ void ObjectTracks::take(const VisionVerdict& verdict) noexcept {
       begin(verdict);
     }
   }
+  if (verdict.part + 1 < verdict.parts) return;
   // The last of a region's verdicts: was the track there that was expected?
-  if (region.track == 0 || verdict.part + 1 < verdict.parts) return;
-  const std::size_t expected = track_of(region.track);
-  if (expected < most_tracks && list_.tracks[expected].measured_at < region.time) miss(expected, region.time);
+  const std::size_t expected = region.track != 0 ? track_of(region.track) : most_tracks;
+  if (expected < most_tracks && list_.tracks[expected].measured_at < region.time) miss(expected, verdict);
+  if (WatchedPlace(watched_).is_of(region) && verdict.complete && region.time > list_.watched_at)
+    take_watch(verdict);
+}
+
+/// All that stands in the watched place was told: no other obstacle stands there.
+void ObjectTracks::take_watch(const VisionVerdict& verdict) noexcept {
+  list_.watched_at = verdict.region.time;
+  is_changed_ = true;
+  const WatchedPlace place(watched_);
+  for (std::size_t i = 0; i < most_tracks; ++i) {
+    const ObjectTrack& track = list_.tracks[i];
+    if (track.found == VisualClass::obstacle && track.measured_at < verdict.region.time &&
+        place.holds(beside_[i].filter.position()))
+      miss(i, verdict);
+  }
 }
 
 /// Of the same kind, and within its gate when the verdict's picture was taken; most_tracks: none is.
@@ -247,9 +279,12 @@ void ObjectTracks::trust_the_promoted() noexcept {
   }
 }
 
-/// Once a picture.
-void ObjectTracks::miss(std::size_t place, std::int64_t time) noexcept {
+/// Once a picture. An obstacle is gone only where all of its place was seen, and told for certain.
+void ObjectTracks::miss(std::size_t place, const VisionVerdict& verdict) noexcept {
+  const std::int64_t time = verdict.region.time;
   if (beside_[place].missed_at == time) return;
+  const bool is_obstacle = list_.tracks[place].found == VisualClass::obstacle;
+  if (is_obstacle && !(verdict.complete && verdict.region.whole)) return;
   beside_[place].missed_at = time;
   is_changed_ = true;
   if (++list_.tracks[place].misses < runtime.lost_after) return;
@@ -263,11 +298,11 @@ void ObjectTracks::end(std::size_t place) noexcept {
   beside_[place] = {};
 }
 
-/// What was not measured for long.
+/// What is not confirmed, and was not measured for long.
 void ObjectTracks::forget_before(std::int64_t time) noexcept {
   for (std::size_t i = 0; i < most_tracks; ++i) {
     const ObjectTrack& track = list_.tracks[i];
-    if (track.found != VisualClass::nothing &&
+    if (track.found != VisualClass::nothing && !track.confirmed &&
         seconds(Duration{time - track.measured_at}) > runtime.forget_after)
       end(i);
   }
@@ -311,12 +346,58 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
     region.score = 1 + std::max(rested, 0.0);
     const ObjectFilter filter = filter_at(i, of.time);
     region.expected = {filter.position().x(), filter.position().y(), filter.angle()};
-    if (!predict_region(track, filter.deviation(), region)) continue;
-    if (tracked_regions.push(region, sampled_at))
-      ++feedback.posted;
-    else
-      ++feedback.dropped;
+    if (predict_region(track, filter.deviation(), region)) push(region, sampled_at);
   }
+  VisionRegion place{};
+  place.frame = of.frame;
+  place.time = of.time;
+  if (find_watched_region(place)) push(place, sampled_at);
+}
+
+void ObjectTracks::push(const VisionRegion& region, Time sampled_at) noexcept {
+  if (tracked_regions.push(region, sampled_at))
+    ++feedback.posted;
+  else
+    ++feedback.dropped;
+}
+
+/// False: no place is watched, or the picture does not show all of it.
+bool ObjectTracks::find_watched_region(VisionRegion& region) const noexcept {
+  const WatchedPlace watched(watched_);
+  if (!watched.exists()) return false;
+  const auto& camera = configuration.camera;
+  Eigen::AlignedBox2d around;
+  constexpr int steps = 4;  // along each side: nothing of it may be hidden
+  for (int i = 0; i <= steps; ++i) {
+    for (int k = 0; k <= steps; ++k) {
+      const auto place = [&](double wider) {
+        const Eigen::Vector2d from = watched.room().min().array() - wider;
+        const Eigen::Vector2d size = watched.room().sizes().array() + 2 * wider;
+        return watched.on_table({from.x() + size.x() * i / steps, from.y() + size.y() * k / steps});
+      };
+      Eigen::Vector2d pixel;
+      if (!view_.to_picture(place(0), pixel)) return false;
+      if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() >= camera.width || pixel.y() >= camera.height ||
+          blind_.holds(static_cast<int>(pixel.x()), static_cast<int>(pixel.y())))
+        return false;
+      if (view_.to_picture(place(around_watched), pixel)) around.extend(pixel);
+    }
+  }
+  const PixelRectangle seen =
+      common_part({static_cast<int>(around.min().x()), static_cast<int>(around.min().y()),
+                   static_cast<int>(around.sizes().x()) + 1, static_cast<int>(around.sizes().y()) + 1},
+                  {0, 0, static_cast<int>(camera.width), static_cast<int>(camera.height)});
+  region.left = static_cast<std::uint16_t>(seen.left);
+  region.top = static_cast<std::uint16_t>(seen.top);
+  region.width = static_cast<std::uint16_t>(seen.width);
+  region.height = static_cast<std::uint16_t>(seen.height);
+  region.member = no_member;
+  region.kind = no_kind;
+  region.score = watched_score;
+  region.expected = {watched_.watch[0], watched_.watch[1], watched_.watch_angle};
+  region.watched = true;
+  region.whole = true;
+  return true;
 }
 
 /// As the position is published, for who shows the picture.
@@ -358,7 +439,8 @@ bool ObjectTracks::predict_region(const ObjectTrack& track, double deviation,
   if (seen.is_empty()) return false;
   const PixelRectangle hidden = common_part(seen, blind_);
   const int hidden_area = hidden.is_empty() ? 0 : hidden.width * hidden.height;
-  if (seen.width * seen.height - hidden_area < least_seen * whole.width * whole.height) return false;
+  const int seen_area = seen.width * seen.height - hidden_area;
+  if (seen_area < least_seen * whole.width * whole.height) return false;
   region.left = static_cast<std::uint16_t>(seen.left);
   region.top = static_cast<std::uint16_t>(seen.top);
   region.width = static_cast<std::uint16_t>(seen.width);
@@ -366,6 +448,7 @@ bool ObjectTracks::predict_region(const ObjectTrack& track, double deviation,
   region.member = no_member;
   region.track = track.identity;
   region.kind = track.kind;
+  region.whole = seen_area == whole.width * whole.height;
   return true;
 }
 

@@ -29,6 +29,8 @@ class ObjectTracks final : public ObjectTracksUnit {
     bool is_whole = false;       // an obstacle that some picture showed wholly
   };
 
+  void watch(const TargetInHand* hand) noexcept;
+  void take_watch(const VisionVerdict& verdict) noexcept;
   void read_verdicts() noexcept;
   void take(const VisionVerdict& verdict) noexcept;
   std::size_t nearest_to(const VisionVerdict& verdict) const noexcept;
@@ -37,12 +39,14 @@ class ObjectTracks final : public ObjectTracksUnit {
   void measure_obstacle(ObjectTrack& track, Beside& beside, const VisionVerdict& verdict) noexcept;
   void begin(const VisionVerdict& verdict) noexcept;
   void trust(ObjectTrack& track, const VisionRegion& region) noexcept;
-  void miss(std::size_t place, std::int64_t time) noexcept;
+  void miss(std::size_t place, const VisionVerdict& verdict) noexcept;
   void end(std::size_t place) noexcept;
   void trust_the_promoted() noexcept;
   void forget_before(std::int64_t time) noexcept;
   ObjectFilter filter_at(std::size_t place, std::int64_t time) const noexcept;
   void post(const VisualFeatures& of, Time sampled_at) noexcept;
+  void push(const VisionRegion& region, Time sampled_at) noexcept;
+  bool find_watched_region(VisionRegion& region) const noexcept;
   void place_in_picture(ObjectTrack& track) const noexcept;
   bool predict_region(const ObjectTrack& track, double deviation, VisionRegion& region) const noexcept;
   void publish() noexcept;
@@ -53,6 +57,7 @@ class ObjectTracks final : public ObjectTracksUnit {
   std::array<Beside, most_tracks> beside_{};
   std::array<std::uint64_t, most_recognisers> read_{};  // verdicts of each recogniser
   std::uint32_t next_identity_ = 1;
+  TargetInHand watched_{};  // the place that is watched, if there is one
   PixelRectangle blind_;
   CameraView view_;    // when the list's picture was taken
   bool sees_ = false;  // that is known

@@ -170,9 +170,9 @@ bool hand_meets_obstacle(const Grasp& grasp, const ObjectTrack& obstacle, const 
   return palm.distance_to(place) < wanted;
 }
 
-bool counts(const ObjectTrack& other, const ObjectTrack& track) {
+bool counts(const ObjectTrack& other, const ObjectTrack& track, const HandRoom& room) {
   return other.identity != 0 && other.identity != track.identity && other.found != VisualClass::nothing &&
-         other.confirmed;
+         (other.confirmed || (room.wary && other.found == VisualClass::obstacle));
 }
 
 }  // namespace
@@ -209,7 +209,7 @@ const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList&
     grasp.opening = widest + (least - widest) * i / (tries - 1);
     reason = nullptr;
     for (const ObjectTrack& other : all.tracks) {
-      if (!counts(other, track)) continue;
+      if (!counts(other, track, room)) continue;
       if (other.found == VisualClass::obstacle) {
         if (hand_meets_obstacle(grasp, other, hand, room)) reason = "an obstacle is in the way of the hand";
       } else if (other.kind < known_parts().size() && fingers_meet_part(grasp, other, hand, room)) {

@@ -29,6 +29,7 @@ struct HandRoom {
   double to_parts = 0.002;      ///< between a finger and other parts
   double to_obstacles = 0.004;  ///< between fingers or palm and obstacles
   double slant = 0.03;          ///< the fingers come from so far behind, along -x
+  bool wary = false;            ///< of what is not confirmed yet, too
 };
 
 /// One way to take a part.

@@ -1,6 +1,7 @@
 #include "units/part_picker/part_picker.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "hal/gripper/interface/gripper.hpp"
 #include "hal/scene/interface/part_catalogue.hpp"
@@ -17,8 +18,31 @@ bool do_others_lead(const RobotLead& lead) {
   return lead.moving && lead.activity != RobotActivity::servo && lead.activity != RobotActivity::none;
 }
 
-const char* why_blind(NullReason reason) {
-  return reason == NullReason::too_old ? "no picture that can be used comes" : name_of(reason);
+/// `pictures`: how it stands with them, if that is known.
+const char* why_blind(NullReason reason, std::optional<PictureState> pictures) {
+  switch (pictures.value_or(PictureState::waiting)) {
+    case PictureState::too_dark:
+      return "the picture is too dark to tell obstacles from shadows";
+    case PictureState::too_bright:
+      return "the picture is too bright, its colours are saturated";
+    case PictureState::colour_cast:
+      return "the light is so coloured that colours cannot be told";
+    case PictureState::black:
+      return "the picture is black, as when the lens is covered or the light is out";
+    case PictureState::noise:
+      return "the picture is noise";
+    case PictureState::wrong_format:
+      return "the pictures have a format that cannot be used";
+    case PictureState::frozen:
+      return "the camera repeats a picture";
+    case PictureState::silent:
+      return "no picture comes, or they come too seldom";
+    case PictureState::waiting:
+    case PictureState::good:
+    case PictureState::out_of_order:
+      return reason == NullReason::too_old ? "no picture that can be used comes" : name_of(reason);
+  }
+  return "";
 }
 
 }  // namespace
@@ -62,6 +86,7 @@ PickerPlan PartPicker::plan() const noexcept {
   plan.straight_height = configuration.straight_height;
   plan.grasp_height = configuration.grasp_height;
   plan.drop_height = configuration.drop_height;
+  plan.bin_look_offset = configuration.bin_look_offset;
   plan.base = configuration.base_map();
   plan.nearest = configuration.reach[0];
   plan.farthest = configuration.reach[1];
@@ -143,6 +168,12 @@ void PartPicker::command() noexcept {
     hand.held_from_map() = box.min();
     hand.held_to_map() = box.max();
   }
+  if (const auto& watch = machine_.watch_for()) {
+    hand.watch_map() = watch->middle;
+    hand.watch_angle = watch->angle;
+    hand.watch_from_map() = watch->room.min();
+    hand.watch_to_map() = watch->room.max();
+  }
   in_hand.publish(hand);
   switch (machine_.act()) {
     case PickerAct::activate:
@@ -166,7 +197,10 @@ void PartPicker::tell(const PickerView& view, const View<TrackList>& seen) noexc
     led_by_picture_ = part.measured_at;
     feedback.latency = seconds(view.now - Time{std::chrono::nanoseconds{part.measured_at}});
   }
-  const PickerMessage text = describe(machine_, view, seen ? "" : why_blind(seen.reason()));
+  const auto pictures = condition.latest();
+  const PickerMessage text = describe(
+      machine_, view,
+      seen ? "" : why_blind(seen.reason(), pictures ? std::optional{pictures->state} : std::nullopt));
   feedback.state = machine_.state();
   feedback.set_message(text.message.data());
   feedback.set_remedy(text.remedy);

@@ -134,10 +134,11 @@ bool PickerMachine::follow_track() noexcept {
 const char* PickerMachine::what_blocks_now() noexcept {
   if (is_frozen_ || !view_->tracks_are_new) return nullptr;
   Grasp grasp = grasp_;
-  const char* blocked = what_blocks(grasp, track_, *view_->tracks, plan_.hand, plan_.room);
+  HandRoom room = plan_.room;
+  room.wary = state_ == PickerState::descending;
+  const char* blocked = what_blocks(grasp, track_, *view_->tracks, plan_.hand, room);
   if (blocked != nullptr && state_ != PickerState::descending) {
-    if (const auto other =
-            free_grasp(track_, *view_->tracks, plan_.hand_angle, plan_.hand, plan_.room, blocked)) {
+    if (const auto other = free_grasp(track_, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked)) {
       blocked = nullptr;
       grasp = *other;
     }
@@ -154,28 +155,36 @@ const char* PickerMachine::what_blocks_now() noexcept {
   return nullptr;
 }
 
-/// A place in the bin beside which nothing stands.
+/// A place in the bin beside which nothing stands. False: there is none, and `spot_` is the bin's middle.
 bool PickerMachine::find_spot() noexcept {
   const PickerBin& bin = plan_.bins[track_.kind];
   const double part = known_parts()[track_.kind].radius;
   const Eigen::Vector2d room = (bin.size / 2 - Eigen::Vector2d::Constant(part + 0.005)).cwiseMax(0);
   constexpr std::array<double, 3> places{0, 1, -1};
-  const double hand = std::hypot(plan_.hand.palm_length, plan_.hand.palm_width) / 2;
   for (const double x : places) {
     for (const double y : places) {
-      const Eigen::Vector2d middle = bin.middle + Eigen::Vector2d(x * room.x(), y * room.y());
-      const auto stands_there = [&](const ObjectTrack& track) {
-        return track.identity != 0 && track.found == VisualClass::obstacle && track.confirmed &&
-               (Eigen::Vector2d(track.position_map()) - middle).norm() <
-                   hand + track.radius + plan_.room.to_obstacles;
-      };
-      const auto& tracks = view_->tracks->tracks;
-      if (std::any_of(tracks.begin(), tracks.end(), stands_there)) continue;
-      spot_ = middle + grasp_.middle - Eigen::Vector2d(track_.position_map());
-      return true;
+      spot_ = tip_over(bin.middle + Eigen::Vector2d(x * room.x(), y * room.y()));
+      if (is_free(spot_)) return true;
     }
   }
+  spot_ = tip_over(bin.middle);
   return false;
+}
+
+/// Where the tip is when the part is over that place.
+Eigen::Vector2d PickerMachine::tip_over(const Eigen::Vector2d& place) const noexcept {
+  return place + held_grasp_.middle - Eigen::Vector2d(held_.position_map());
+}
+
+/// Of obstacles: no part of the hand comes near one, however it is turned.
+bool PickerMachine::is_free(const Eigen::Vector2d& spot) const noexcept {
+  const double hand = std::hypot(plan_.hand.palm_length, plan_.hand.palm_width) / 2;
+  const auto& tracks = view_->tracks->tracks;
+  return std::none_of(tracks.begin(), tracks.end(), [&](const ObjectTrack& track) {
+    return track.identity != 0 && track.found == VisualClass::obstacle &&
+           (Eigen::Vector2d(track.position_map()) - spot).norm() <
+               hand + track.radius + plan_.room.to_obstacles;
+  });
 }
 
 }  // namespace flexrf::user

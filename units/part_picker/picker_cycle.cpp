@@ -55,9 +55,11 @@ void PickerMachine::look() noexcept {
     return approach();
   }
   aim(over_part(), grasp_.angle);
+  watch_grasp(plan_.room.slant);
   if (needs_opening_) return open_for_grasp();
   const bool is_measured = track_.frames >= measured_frames_ + wishes_->look_pictures;
-  if (is_measured && is_at(over_part(), picker::arrives) && is_turned(grasp_.angle) &&
+  const bool is_watched = watched_pictures_ >= picker::watched_pictures;
+  if (is_measured && is_watched && is_at(over_part(), picker::arrives) && is_turned(grasp_.angle) &&
       !view_->gripper.moving) {
     is_frozen_ = false;
     is_straight_ = false;
@@ -65,6 +67,8 @@ void PickerMachine::look() noexcept {
   }
   if (view_->now - entered_ <= wishes_->patience) return;
   leave_alone(track_.identity);
+  if (is_measured && !is_watched)
+    return fail(PickerState::blocked, "the camera cannot tell what lies beside the part");
   fail(PickerState::target_lost,
        is_measured ? "the hand does not come to rest above it" : "it is not measured from near by");
 }
@@ -76,8 +80,13 @@ void PickerMachine::descend() noexcept {
   if ((grasp_.middle - way_begin_).norm() > plan_.room.slant + picker::follows)
     return fail(PickerState::target_lost, "it was moved away");
   if (needs_opening_) open_for_grasp();
+  if (!is_frozen_) watch_grasp(0);
   // From there the camera no longer sees all of the part.
+  const bool was_frozen = is_frozen_;
   is_frozen_ = is_frozen_ || is_at(at_grasp(plan_.straight_height), picker::last_seen_within);
+  constexpr std::uint32_t enough = 3;  // pictures; of fewer the last look above the part counts
+  if (is_frozen_ && !was_frozen && watched_pictures_ == 0 && pictures_ >= enough)
+    return fail(PickerState::blocked, "the camera cannot tell what lies beside the part");
   // Only from rest the stream's way is a straight line: an arm that was led on from its slanted way swung by
   // up to 16 mm between obstacles that stood 4 mm beside it.
   is_straight_ = is_straight_ || (is_frozen_ && view_->arm_rests);
@@ -124,29 +133,53 @@ void PickerMachine::lift() noexcept {
 }
 
 void PickerMachine::begin_carrying() noexcept {
-  const char* const why = !find_spot()        ? "an obstacle stands in the bin"
-                          : !begin_way(spot_) ? paths_.why()
-                                              : "";
-  if (*why == '\0') return enter(PickerState::carrying);
-  if (state_ != PickerState::blocked) return fail(PickerState::blocked, why);
-  cause_ = why;
+  // Where something stands in the bin it waits beside it, for there the camera sees when that is gone.
+  find_spot();
+  if (begin_way(beside_bin().head<2>())) return enter(PickerState::carrying);
+  if (state_ != PickerState::blocked) return fail(PickerState::blocked, paths_.why());
+  cause_ = paths_.why();
 }
 
 void PickerMachine::carry() noexcept {
   if (!keeps_part()) return;
-  if (view_->tracks_are_new && !find_spot())
-    return fail(PickerState::blocked, "an obstacle stands in the bin");
-  if (has_left(over_bin(0)) && !begin_way(spot_)) return fail(PickerState::blocked, paths_.why());
-  if (!go(over_bin(plan_.travel_height), grasp_.angle)) return;
-  enter(PickerState::lowering);
-  lower();
+  if (!go(beside_bin(), grasp_.angle)) return;
+  enter(PickerState::looking_into_bin);
+  look_into_bin();
+}
+
+/// Also while it is blocked there.
+void PickerMachine::look_into_bin() noexcept {
+  if (!keeps_part()) return;
+  aim(beside_bin(), grasp_.angle);
+  watch_spot();
+  if (!view_->tracks_are_new) return;
+  if (!is_free(spot_)) {
+    if (!find_spot()) return wait_beside_bin("an obstacle stands in the bin");
+    if (!begin_way(beside_bin().head<2>())) return wait_beside_bin(paths_.why());
+    return enter(PickerState::carrying);
+  }
+  if (watched_pictures_ >= picker::watched_pictures) {
+    if (!begin_way(spot_)) return wait_beside_bin(paths_.why());
+    enter(PickerState::lowering);
+    return lower();
+  }
+  if (view_->now - entered_ > wishes_->patience)
+    wait_beside_bin("the camera cannot tell what stands in the bin");
+}
+
+void PickerMachine::wait_beside_bin(const char* why) noexcept {
+  if (!waits_at_bin_) fail(PickerState::blocked, why);
+  waits_at_bin_ = true;
+  cause_ = why;
+  aim(beside_bin(), grasp_.angle);
 }
 
 void PickerMachine::lower() noexcept {
   if (!keeps_part()) return;
-  const Eigen::Vector3d goal = over_bin(plan_.drop_height);
-  aim(goal, grasp_.angle);
-  if (!is_at(goal, picker::arrives)) return;
+  // Going down it sees but its own hand and what that throws a shadow on.
+  if (view_->tracks_are_new && !is_over_ && !is_free(spot_))
+    return fail(PickerState::blocked, "an obstacle stands in the bin");
+  if (!go(over_bin(plan_.drop_height), grasp_.angle)) return;
   enter(PickerState::releasing);
   open(std::min(grasp_.width + 2 * plan_.room.beside_part, plan_.hand.widest));
 }

@@ -20,12 +20,14 @@ void PickerMachine::step(const PickerView& view, const PickerWishes& wishes) noe
   act_ = PickerAct::none;
   target_.reset();
   if (view.tracks_are_new) ++pictures_;
+  count_watched_pictures();
   if (!view.arm_rests) moved_ = view.now;
   if (view.others_lead) needs_survey_ = true;
   if (!supervise()) act_in_state();
   const bool is_between = in_hand_ || state_ == PickerState::closing;
   if (is_between) let_go_ = view.now + picker::picture_age;
   shows_part_ = is_between || view.now < let_go_;
+  if (!picker::watches(state_) && !waits_at_bin_) watch_for_.reset();
   // Fingers finish what they are at; without sight the arm holds.
   if (view.tracks == nullptr) target_.reset();
   view_ = nullptr;
@@ -160,13 +162,15 @@ void PickerMachine::act_in_state() noexcept {
       return lift();
     case PickerState::carrying:
       return carry();
+    case PickerState::looking_into_bin:
+      return look_into_bin();
     case PickerState::lowering:
       return lower();
     case PickerState::releasing:
       return release();
     case PickerState::unreachable:
     case PickerState::blocked:
-      return is_watching_ ? watch() : rise_and_go_on();
+      return is_watching_ ? watch() : waits_at_bin_ ? look_into_bin() : rise_and_go_on();
     case PickerState::retreating:
     case PickerState::target_lost:
     case PickerState::grasp_failed:
@@ -228,7 +232,9 @@ void PickerMachine::enter(PickerState state, const char* cause) noexcept {
   entered_ = view_->now;
   moved_ = view_->now;
   pictures_ = 0;
+  watched_pictures_ = 0;
   is_watching_ = false;
+  waits_at_bin_ = false;
   is_frozen_ = false;
   // Straight up from here, whoever brought the arm here.
   if (view_->tool) way_begin_ = tip().head<2>();

@@ -33,11 +33,12 @@ struct PickerPlan {
   Eigen::Vector3d look_out = Eigen::Vector3d::Zero();
   double hand_angle =
       0;  ///< of the closing direction at the look-out; grasps turn as little as they can from it
-  double travel_height = 0;                        ///< above all that stands on the table
-  double look_height = 0;                          ///< above the grasp: from there the part is measured last
-  double straight_height = 0;                      ///< above the grasp: below it goes straight down
-  double grasp_height = 0;                         ///< above the table
-  double drop_height = 0;                          ///< above the table, in the bin
+  double travel_height = 0;    ///< above all that stands on the table
+  double look_height = 0;      ///< above the grasp: from there the part is measured last
+  double straight_height = 0;  ///< above the grasp: below it goes straight down
+  double grasp_height = 0;     ///< above the table
+  double drop_height = 0;      ///< above the table, in the bin
+  double bin_look_offset = 0;  ///< behind a place in the bin: from there the camera sees it
   Eigen::Vector2d base = Eigen::Vector2d::Zero();  ///< the arm's first axis
   double nearest = 0;                              ///< from there it reaches
   double farthest = 0;
@@ -80,6 +81,14 @@ struct PickerView {
 
 enum class PickerAct : std::uint8_t { none, activate, open, close };
 
+/// A place on the table into which the hand goes down next, and what the hand takes up there: a box about
+/// `middle`, whose y points to `angle`. In m and rad.
+struct PickerWatch {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double angle = 0;
+  Eigen::AlignedBox2d room;
+};
+
 class PickerMachine {
  public:
   void begin(const PickerPlan& plan) noexcept;
@@ -103,6 +112,8 @@ class PickerMachine {
   const ObjectTrack& part() const noexcept { return track_; }
   const Grasp& grasp() const noexcept { return grasp_; }
   bool holds_part() const noexcept { return in_hand_; }
+  /// What the camera has to show before the hand goes down there; nothing: it goes down nowhere.
+  const std::optional<PickerWatch>& watch_for() const noexcept { return watch_for_; }
   /// There is a part between the fingers, or was until just now.
   bool shows_part() const noexcept { return shows_part_; }
   /// Where it lies in the tool's frame: a box around it, upright as the hand is.
@@ -162,11 +173,19 @@ class PickerMachine {
   void lift() noexcept;
   void begin_carrying() noexcept;
   void carry() noexcept;
+  void look_into_bin() noexcept;
+  void wait_beside_bin(const char* why) noexcept;
   void lower() noexcept;
   void release() noexcept;
   void fail(PickerState state, const char* cause) noexcept;
   void rise_and_go_on() noexcept;
   bool find_spot() noexcept;
+  bool is_free(const Eigen::Vector2d& spot) const noexcept;
+  Eigen::Vector2d tip_over(const Eigen::Vector2d& spot) const noexcept;
+  void ask_to_watch(const Eigen::Vector2d& middle, const Eigen::AlignedBox2d& room) noexcept;
+  void watch_grasp(double behind) noexcept;
+  void count_watched_pictures() noexcept;
+  void watch_spot() noexcept;
   bool keeps_part() noexcept;
   bool fingers_hold() const noexcept;
 
@@ -181,6 +200,7 @@ class PickerMachine {
   Eigen::Vector3d at_grasp(double above) const noexcept;
   Eigen::Vector3d over_part() const noexcept;
   Eigen::Vector3d over_bin(double height) const noexcept;
+  Eigen::Vector3d beside_bin() const noexcept;
   void open_for_grasp() noexcept;
   void open(double opening) noexcept;
   void enter(PickerState state, const char* cause = "") noexcept;
@@ -214,6 +234,10 @@ class PickerMachine {
   bool is_watching_ = false;        // at the look-out, until there is a part that can be picked
   std::uint32_t failed_track_ = 0;
   Eigen::Vector2d spot_ = Eigen::Vector2d::Zero();  // in the bin
+  bool waits_at_bin_ = false;                       // blocked, beside the bin, where the camera sees into it
+  std::optional<PickerWatch> watch_for_;
+  std::int64_t watched_at_ = 0;         // ns, the last picture that showed all of that place
+  std::uint32_t watched_pictures_ = 0;  // so many did, since it is asked for in this state
   Eigen::Vector2d way_begin_ = Eigen::Vector2d::Zero();
   std::size_t way_place_ = 0;
   bool needs_opening_ = false;  // as wide as the grasp says

@@ -116,6 +116,9 @@ PickerMessage describe(const PickerMachine& machine, const PickerView& view, con
     case PickerState::carrying:
       writer.say("", "Bringing the %s to its bin.", part);
       break;
+    case PickerState::looking_into_bin:
+      writer.say("", "Looking into the bin before it goes down with the %s.", part);
+      break;
     case PickerState::lowering:
       writer.say("", "Going down into the bin with the %s.", part);
       break;

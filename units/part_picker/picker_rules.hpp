@@ -31,6 +31,12 @@ inline constexpr Duration stuck = std::chrono::milliseconds(1500);
 inline constexpr Duration hand_pause = std::chrono::milliseconds(500);
 // So many pictures in a row have to tell something before the arm moves by what it sees again.
 inline constexpr std::uint32_t sees_again = 5;
+// So many of them have to show all of the place into which the hand goes down next.
+inline constexpr std::uint32_t watched_pictures = 2;
+// A place that moves farther than this is another one, which is watched anew; m and rad. Around it the hand's
+// own room is watched, wider by this.
+inline constexpr double same_watch = 0.004;
+inline constexpr double same_watch_turned = 0.05;
 // So long a failure is shown at least.
 inline constexpr Duration shown = std::chrono::milliseconds(500);
 // So much wider than the part the fingers have to be to have let it go, in m.
@@ -56,6 +62,7 @@ inline bool needs_sight(PickerState state) {
     case PickerState::descending:
     case PickerState::lifting:
     case PickerState::carrying:
+    case PickerState::looking_into_bin:
     case PickerState::lowering:
     case PickerState::retreating:
     case PickerState::target_lost:
@@ -82,6 +89,12 @@ inline bool is_on_way(PickerState state) {
     default:
       return false;
   }
+}
+
+/// The place into which the hand goes down next is watched.
+inline bool watches(PickerState state) {
+  return state == PickerState::looking || state == PickerState::descending ||
+         state == PickerState::looking_into_bin;
 }
 
 /// To a part that is not in the hand yet.

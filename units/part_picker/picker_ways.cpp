@@ -86,6 +86,58 @@ Eigen::Vector3d PickerMachine::over_bin(double height) const noexcept {
   return {spot_.x(), spot_.y(), height};
 }
 
+/// From there the camera sees the place in the bin past the part that it holds.
+Eigen::Vector3d PickerMachine::beside_bin() const noexcept {
+  const Eigen::Vector2d x(-std::sin(grasp_.angle), std::cos(grasp_.angle));
+  const Eigen::Vector2d place = spot_ - plan_.bin_look_offset * x;
+  return {place.x(), place.y(), plan_.travel_height};
+}
+
+/// The hand's own room at the grasp; the fingers come from so far behind.
+void PickerMachine::watch_grasp(double behind) noexcept {
+  const HandShape& hand = plan_.hand;
+  const double x = hand.palm_width / 2;
+  const double y = std::max(hand.palm_length / 2, grasp_.opening / 2 + hand.finger_thickness);
+  ask_to_watch(grasp_.middle,
+               {Eigen::Vector2d(-std::max(x, hand.finger_width / 2 + behind), -y), Eigen::Vector2d(x, y)});
+}
+
+/// That of the hand and of the part in it.
+void PickerMachine::watch_spot() noexcept {
+  const Eigen::AlignedBox3d part = held_box();
+  const Eigen::Vector2d hand(plan_.hand.palm_width / 2, plan_.hand.palm_length / 2);
+  Eigen::AlignedBox2d room(Eigen::Vector2d(-hand), hand);
+  room.extend(Eigen::Vector2d(part.min().head<2>()));
+  room.extend(Eigen::Vector2d(part.max().head<2>()));
+  ask_to_watch(spot_, room);
+}
+
+/// About the tip at `middle`, turned as the hand is for the grasp. What is watched already is not asked for
+/// anew for a hair's breadth.
+void PickerMachine::ask_to_watch(const Eigen::Vector2d& middle, const Eigen::AlignedBox2d& room) noexcept {
+  const double wider = plan_.room.to_obstacles + picker::same_watch;
+  PickerWatch asked{middle, grasp_.angle, room};
+  asked.room.min().array() -= wider;
+  asked.room.max().array() += wider;
+  if (watch_for_ && (watch_for_->middle - middle).norm() < picker::same_watch &&
+      std::abs(turn_between(watch_for_->angle, asked.angle)) < picker::same_watch_turned &&
+      watch_for_->room.isApprox(asked.room))
+    return;
+  watch_for_ = asked;
+  watched_pictures_ = 0;
+}
+
+/// Those that were taken since it is asked for in this state.
+void PickerMachine::count_watched_pictures() noexcept {
+  if (view_->tracks == nullptr || !watch_for_) return;
+  const TrackList& seen = *view_->tracks;
+  const bool is_of_it = seen.watched[0] == watch_for_->middle.x() &&
+                        seen.watched[1] == watch_for_->middle.y() && seen.watched[2] == watch_for_->angle;
+  if (!is_of_it || seen.watched_at == watched_at_) return;
+  watched_at_ = seen.watched_at;
+  if (Time{Duration{watched_at_}} > entered_) ++watched_pictures_;
+}
+
 /// As it lay when the fingers closed; between them it may have turned a bit.
 Eigen::AlignedBox3d PickerMachine::held_box() const noexcept {
   const PartModel& model = known_parts()[held_.kind];

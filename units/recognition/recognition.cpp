@@ -9,6 +9,7 @@
 #include "units/vision/camera_view.hpp"
 #include "units/vision/hidden_part.hpp"
 #include "units/vision/integral_images.hpp"
+#include "units/vision/watched_place.hpp"
 
 namespace flexrf::user {
 namespace {
@@ -28,6 +29,7 @@ constexpr int most_outdated = 64;
 // Of luminance and of opponent colours, 0 to 255: less differs on a bare table by noise, texture and light.
 constexpr double flat_variance = 9;
 constexpr double flat_colour = 1.5;
+constexpr double usual_luminance = 100;  // of a picture in the light that these are for, at least
 
 PixelRectangle rectangle_of(const VisionRegion& job) {
   const PixelRectangle own{job.left, job.top, job.width, job.height};
@@ -40,7 +42,7 @@ PixelRectangle rectangle_of(const VisionRegion& job) {
 /// There was but the table in a region that has all of the job's within it.
 bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
   const VisionRegion& seen = nothing.region;
-  if (!nothing.bare) return false;
+  if (!nothing.complete) return false;
   return seen.left <= job.left && seen.top <= job.top && seen.left + seen.width >= job.left + job.width &&
          seen.top + seen.height >= job.top + job.height;
 }
@@ -206,7 +208,8 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   }
   VisionVerdict nothing = verdict_of(job, Finding{}, {});
   nothing.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
-  if (is_flat(job)) {
+  if (!job.watched && is_flat(job)) {
+    nothing.complete = is_tracked;
     ++feedback.nothing;
     note(nothing);
     return true;
@@ -232,12 +235,20 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
       return true;
     }
   }
-  const auto findings = finder_.measure(
-      picture, at, blind_, view, expected,
-      {runtime.least_support, runtime.most_residual, runtime.least_obstacle, runtime.obstacle_height});
+  const FindingLimits limits{runtime.least_support, runtime.most_residual, runtime.least_obstacle,
+                             runtime.obstacle_height};
+  std::array<Eigen::Vector2d, 4> place;
+  if (job.watched && !find_watched_place(job, view, place)) {
+    note(nothing);
+    return true;
+  }
+  const auto findings = job.watched ? finder_.measure_all(picture, at.rectangle, blind_, view, limits, place)
+                                    : finder_.measure(picture, at, blind_, view, expected, limits);
   feedback.pixels += finder_.pixels();
   nothing.pixels = finder_.pixels();
-  nothing.bare = at.is_empty() && at.least <= smallest_piece;
+  // A glance from too far away may have missed a thing.
+  const bool is_close = is_tracked || (at.is_empty() && at.least <= smallest_piece);
+  nothing.complete = is_close && finder_.is_complete();
   if (findings.empty()) {
     ++feedback.nothing;
     note(nothing);
@@ -248,13 +259,29 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     verdict.pixels = part == 0 ? finder_.pixels() : 0;
     verdict.part = part++;
     verdict.parts = static_cast<std::uint8_t>(findings.size());
+    verdict.complete = is_tracked && finder_.is_complete();
     ++(finding.found == VisualClass::target ? feedback.targets : feedback.obstacles);
     note(verdict);
   }
   return true;
 }
 
-/// The features of its picture say that there is but the table. Where they are of another picture: unknown.
+/// Its corners in the picture. False: another place is watched by now.
+bool Recognition::find_watched_place(const VisionRegion& job, const CameraView& view,
+                                     std::array<Eigen::Vector2d, 4>& corners) noexcept {
+  const auto hand = in_hand.latest();
+  if (!hand) return false;
+  const WatchedPlace watched(*hand);
+  if (!watched.is_of(job)) return false;
+  constexpr std::array around{Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                              Eigen::AlignedBox2d::TopRight, Eigen::AlignedBox2d::TopLeft};
+  for (std::size_t i = 0; i < around.size(); ++i)
+    if (!view.to_picture(watched.on_table(watched.room().corner(around[i])), corners[i])) return false;
+  return true;
+}
+
+/// The features of its picture say that there is but the table: it differs from itself by as much less as it
+/// is darker. Where they are of another picture: unknown.
 bool Recognition::is_flat(const VisionRegion& job) noexcept {
   const auto of = features.latest();
   if (!of || of->frame != job.frame) return false;
@@ -271,8 +298,9 @@ bool Recognition::is_flat(const VisionRegion& job) noexcept {
   const auto differs = [&](const auto& sums) {
     return std::abs(window_sum(sums, window) / area - window_sum(sums, all) / all.area());
   };
-  return variance < flat_variance && differs(of->red_green) < flat_colour &&
-         differs(of->yellow_blue) < flat_colour;
+  const double light = std::min(mean / usual_luminance, 1.0);
+  return variance < flat_variance * light * light && differs(of->red_green) < flat_colour * light &&
+         differs(of->yellow_blue) < flat_colour * light;
 }
 
 /// What was measured in that picture and is the same, by whichever recogniser; null: there is none.

@@ -1,6 +1,7 @@
 // Recognition: one recogniser. It takes jobs, looks at their regions, and publishes verdicts.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "recognition_unit.hpp"
@@ -22,6 +23,8 @@ class Recognition final : public RecognitionUnit {
   const CameraFrame* frame_of(std::uint64_t sequence) noexcept;
   bool is_flat(const VisionRegion& job) noexcept;
   bool answer(const VisionRegion& job) noexcept;
+  bool find_watched_place(const VisionRegion& job, const CameraView& view,
+                          std::array<Eigen::Vector2d, 4>& corners) noexcept;
   template <class Same>
   const VisionVerdict* find_answered(std::uint64_t frame, const Same& same) noexcept;
   const VisionVerdict* glance(const PictureView& picture, const VisionRegion& job, Glance& at) noexcept;

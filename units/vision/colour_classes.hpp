@@ -41,7 +41,13 @@ class ColourClasses {
     return classes_[std::size_t{places[0][rgb[0]]} + places[1][rgb[1]] + places[2][rgb[2]]];
   }
 
-  /// Of `count` pixels that were added up, channel by channel.
+  /// Whether pixels are so dark that four of them are too few for is_shadow(): their noise hides the
+  /// difference.
+  static bool needs_more(const std::array<std::uint32_t, 3>& sums, std::uint32_t count) noexcept {
+    return sums[0] + sums[1] + sums[2] < usual_sum * count;
+  }
+
+  /// Of `count` pixels that were added up, channel by channel: 4, or 16 where they are dark.
   bool is_shadow(const std::array<std::uint32_t, 3>& sums, std::uint32_t count,
                  const WhiteBalance& balance) const noexcept {
     // All by the sum, so that nothing is divided.
@@ -56,7 +62,8 @@ class ColourClasses {
     const double off = off_red * off_red + off_green * off_green + off_blue * off_blue;
     const double tolerated = like_a_shadow * sum;
     const auto raw = static_cast<double>(sums[0] + sums[1] + sums[2]);
-    const double usual = usual_sum * count;
+    // The mean of 16 has half of the noise that the mean of 4 has.
+    const double usual = usual_sum * count * (count > 4 ? 0.5 : 1.0);
     return raw < usual ? off * raw * raw < tolerated * tolerated * usual * usual
                        : off < tolerated * tolerated;
   }

@@ -88,13 +88,65 @@ std::span<const Finding> PartFinder::measure(const PictureView& picture, const G
     pixels_ += look(picture, middle, blind);
   }
   const Blob* const central = blob_in_the_middle_of(middle);
+  is_complete_ = is_lit_ && !bitmap_.is_full();
   for (const Blob& blob : bitmap_.blobs()) {
     // Of an obstacle at the border nobody knows where its middle is.
     const bool may_be_obstacle = &blob == central || !bitmap_.is_cut(blob, picture);
-    const bool is_part = blob.pixel_class != class_foreign && find_parts(blob, view, expected, limits);
-    if (!is_part && may_be_obstacle) find_obstacle(blob, view, limits);
+    const bool is_told = tell(blob, may_be_obstacle, view, expected, limits);
+    is_complete_ = is_complete_ && (is_told || !may_be_obstacle || is_small(blob, view, limits));
   }
   return {findings_.data(), count_};
+}
+
+std::span<const Finding> PartFinder::measure_all(const PictureView& picture, const PixelRectangle& rectangle,
+                                                 const PixelRectangle& blind, const CameraView& view,
+                                                 const FindingLimits& limits,
+                                                 std::span<const Eigen::Vector2d, 4> place) noexcept {
+  count_ = 0;
+  pixels_ = look(picture, rectangle, blind);
+  is_complete_ = is_lit_ && !bitmap_.is_full();
+  for (const Blob& blob : bitmap_.blobs()) {
+    const bool is_told = tell(blob, true, view, Finding{}, limits);
+    is_complete_ = is_complete_ && (is_told || is_small(blob, view, limits) || !meets(blob, place));
+  }
+  return {findings_.data(), count_};
+}
+
+/// False: it is neither a part, or a piece of one, nor is there a finding of it.
+bool PartFinder::tell(const Blob& blob, bool may_be_obstacle, const CameraView& view, const Finding& expected,
+                      const FindingLimits& limits) noexcept {
+  const std::size_t before = count_;
+  const bool is_part = blob.pixel_class != class_foreign && find_parts(blob, view, expected, limits);
+  if (!is_part && may_be_obstacle) find_obstacle(blob, view, limits);
+  return is_part || count_ > before;
+}
+
+/// Some of it lies in the place.
+bool PartFinder::meets(const Blob& blob, std::span<const Eigen::Vector2d, 4> place) const noexcept {
+  const auto is_inside = [&](const Eigen::Vector2d& pixel) {
+    int lefts = 0;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const Eigen::Vector2d along = place[(i + 1) % place.size()] - place[i];
+      const Eigen::Vector2d to = pixel - place[i];
+      if (along.x() * to.y() - along.y() * to.x() > 0) ++lefts;
+    }
+    return lefts == 0 || lefts == static_cast<int>(place.size());
+  };
+  for (int row = blob.top; row <= blob.bottom; ++row)
+    for (int column = blob.left; column <= blob.right; ++column)
+      if (bitmap_.label(column, row) == blob.label && is_inside(pixel_of(column + 0.5, row + 0.5)))
+        return true;
+  return false;
+}
+
+/// Less than an obstacle has, wherever it stands.
+bool PartFinder::is_small(const Blob& blob, const CameraView& view,
+                          const FindingLimits& limits) const noexcept {
+  Eigen::Vector2d place;
+  const Eigen::Vector2d pixel = pixel_of(blob.middle_column, blob.middle_row);
+  if (!view.to_plane(pixel.x(), pixel.y(), 0, place)) return false;
+  const double scale = view.pixels_per_metre({place.x(), place.y(), 0}) / bitmap_.scale();
+  return blob.area < limits.least_obstacle * scale * scale;
 }
 
 /// That covers the middle of the rectangle, or else lies nearest to it; null: there is none.

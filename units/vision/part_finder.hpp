@@ -53,10 +53,10 @@ struct Glance {
 };
 
 /// Of one thread; allocates nothing. Bounded: one rectangle, looked at a second time where a blob went on
-/// behind it; 4 findings, of one blob 3, each of at most 96 starts.
+/// behind it; 8 findings, of one blob 3, each of at most 96 starts.
 class PartFinder {
  public:
-  static constexpr std::size_t most_findings = 4;
+  static constexpr std::size_t most_findings = 8;
 
   /// `darkest_shadow`: see ColourClasses::prepare(). Takes some milliseconds.
   void prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept;
@@ -64,7 +64,7 @@ class PartFinder {
   /// Takes the light from a picture; once for each, before regions of it are looked at. `blind`: where
   /// nothing is seen. False: its table was not found, and the light is taken as it was.
   bool look_at_light(const PictureView& picture, const PixelRectangle& blind) noexcept {
-    return light_.look(picture, blind, classes_);
+    return is_lit_ = light_.look(picture, blind, classes_);
   }
 
   /// A rectangle is about what lies in its middle: in the answer is that, and what lies beside it.
@@ -79,7 +79,19 @@ class PartFinder {
                                    const CameraView& view, const Finding& expected,
                                    const FindingLimits& limits) noexcept;
 
-  /// That the last measure() looked at, and its glance.
+  /// All that lies in a rectangle, and what goes on behind its border as far as it is seen: to know what
+  /// stands in a place. `place`: that one in the picture, in pixels, convex, one corner after the other.
+  std::span<const Finding> measure_all(const PictureView& picture, const PixelRectangle& rectangle,
+                                       const PixelRectangle& blind, const CameraView& view,
+                                       const FindingLimits& limits,
+                                       std::span<const Eigen::Vector2d, 4> place) noexcept;
+
+  /// The last measure() or measure_all() said what each thing is that it saw. What measure() saw but a piece
+  /// of, at the border, does not count; nor does what measure_all() saw beside its place. False also where
+  /// the picture's light is not known.
+  bool is_complete() const noexcept { return is_complete_; }
+
+  /// That the last one of them looked at, and the glance.
   std::uint32_t pixels() const noexcept { return pixels_; }
   void forget() noexcept { light_.forget(); }
 
@@ -87,6 +99,10 @@ class PartFinder {
   const Blob* blob_in_the_middle_of(const PixelRectangle& rectangle) const noexcept;
   std::uint32_t look(const PictureView& picture, const PixelRectangle& rectangle, const PixelRectangle& blind,
                      int least_scale = 1) noexcept;
+  bool tell(const Blob& blob, bool may_be_obstacle, const CameraView& view, const Finding& expected,
+            const FindingLimits& limits) noexcept;
+  bool meets(const Blob& blob, std::span<const Eigen::Vector2d, 4> place) const noexcept;
+  bool is_small(const Blob& blob, const CameraView& view, const FindingLimits& limits) const noexcept;
   bool find_parts(const Blob& blob, const CameraView& view, const Finding& expected,
                   const FindingLimits& limits) noexcept;
   void note(const PartModel& part, std::size_t kind, const OutlineFit& fit, const CameraView& view) noexcept;
@@ -105,6 +121,8 @@ class PartFinder {
   std::array<Finding, most_findings> findings_{};
   std::size_t count_ = 0;
   std::uint32_t pixels_ = 0;
+  bool is_lit_ = false;  // the picture's light is known
+  bool is_complete_ = false;
 };
 
 }  // namespace flexrf::user

@@ -99,7 +99,7 @@ void RegionBitmap::classify(const PictureView& picture, const PixelRectangle& bl
   }
 }
 
-/// By the mean of four pixels, which has half of the noise.
+/// By the mean of four pixels, which has half of the noise; where they are dark by that of sixteen.
 bool RegionBitmap::is_shadow(const PictureView& picture, int column, int row,
                              const ColourClasses& classes) const noexcept {
   const int right = std::min(column + 1, picture.width - 1);
@@ -113,7 +113,16 @@ bool RegionBitmap::is_shadow(const PictureView& picture, int column, int row,
     return std::uint32_t{above_left[channel]} + above_right[channel] + below_left[channel] +
            below_right[channel];
   };
-  return classes.is_shadow({sum(0), sum(1), sum(2)}, 4, balance_);
+  const std::array<std::uint32_t, 3> four{sum(0), sum(1), sum(2)};
+  if (!ColourClasses::needs_more(four, 4)) return classes.is_shadow(four, 4, balance_);
+  constexpr int width = 4;
+  const int left = std::clamp(column - 1, 0, picture.width - width);
+  const int top = std::clamp(row - 1, 0, picture.height - width);
+  std::array<std::uint32_t, 3> sums{};
+  for (int y = top; y < top + width; ++y)
+    for (int x = left; x < left + width; ++x)
+      for (std::size_t channel = 0; channel < 3; ++channel) sums[channel] += picture.at(x, y)[channel];
+  return classes.is_shadow(sums, width * width, balance_);
 }
 
 /// Opening (Serra 1982) with squares of three cells: what is foreign shrinks by one cell, and what is left

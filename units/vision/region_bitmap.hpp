@@ -41,6 +41,8 @@ class RegionBitmap {
             const ColourClasses& classes, const WhiteBalance& balance, int least_scale = 1) noexcept;
 
   std::span<const Blob> blobs() const noexcept { return {blobs_.data(), blob_count_}; }
+  /// Whether there may be more blobs than blobs() has.
+  bool is_full() const noexcept { return blob_count_ == most_blobs || run_count_ == most_runs; }
   const PixelRectangle& rectangle() const noexcept { return rectangle_; }
   int columns() const noexcept { return columns_; }
   int rows() const noexcept { return rows_; }

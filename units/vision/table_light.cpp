@@ -15,6 +15,8 @@ constexpr double least_of_a_picture = 0.08;  // of what was looked at: what is l
 // A table that became darker than this may be a shadow or an obstacle, unless it is most of the picture.
 constexpr double may_be_a_shadow = 0.85;
 constexpr double most_of_a_picture = 0.5;
+// Of a picture that shows the table: coloured light may make an obstacle as grey as that is.
+constexpr double next_to_nothing = 0.25;
 
 }  // namespace
 
@@ -22,6 +24,7 @@ bool TableLight::look(const PictureView& picture, const PixelRectangle& blind,
                       const ColourClasses& classes) noexcept {
   histogram_.fill({});
   std::uint32_t looked = 0;
+  std::uint32_t grey = 0;
   for (int i = 0; i < sample_rows; ++i) {
     const int row = (2 * i + 1) * (picture.height - 1) / (2 * sample_rows);
     for (int k = 0; k < sample_columns; ++k) {
@@ -34,11 +37,13 @@ bool TableLight::look(const PictureView& picture, const PixelRectangle& blind,
       for (std::size_t c = 0; c < 3; ++c)
         sums[c] = std::uint32_t{above[c]} + above[c + 3] + below[c] + below[c + 3];
       if (!classes.may_be_table(sums)) continue;
+      ++grey;
       Level& level = histogram_[std::min((sums[0] + sums[1] + sums[2]) / level_width, levels - 1)];
       ++level.count;
       for (std::size_t c = 0; c < 3; ++c) level.sums[c] += sums[c];
     }
   }
+  sees_no_grey_ = grey < next_to_nothing * looked;
   const auto least = static_cast<std::uint32_t>(least_of_a_picture * looked) + 1;
   const std::uint32_t table = brightest(least);
   if (table == levels) return false;

@@ -19,6 +19,10 @@ class TableLight {
   /// 8480 pixels are looked at, whatever the picture's size is.
   bool look(const PictureView& picture, const PixelRectangle& blind, const ColourClasses& classes) noexcept;
 
+  /// Less than a quarter of the last picture had a colour that light makes of the table: the light is
+  /// coloured.
+  bool sees_no_grey() const noexcept { return sees_no_grey_; }
+
   const WhiteBalance& balance() const noexcept { return balance_; }
   void forget() noexcept { *this = {}; }
 
@@ -34,6 +38,7 @@ class TableLight {
   std::array<Level, levels> histogram_{};
   WhiteBalance balance_;
   double brightness_ = 0;  // of the table, sum of the channels; 0: not yet known
+  bool sees_no_grey_ = false;
 };
 
 }  // namespace flexrf::user

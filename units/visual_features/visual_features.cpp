@@ -1,5 +1,7 @@
 #include "units/visual_features/visual_features.hpp"
 
+#include "units/vision/part_model.hpp"
+
 namespace flexrf::user {
 namespace {
 
@@ -7,12 +9,17 @@ namespace {
 constexpr std::uint32_t new_count = 10;
 // So many good ones in a row are said to be well again: one in between does not mend a camera.
 constexpr std::uint32_t well_again = 10;
+// So many pictures in a row in which the table's colour is not found: the light has changed to what is none.
+constexpr std::uint32_t most_without_light = 15;
 constexpr double least_deviation = 12;  // of luminance, 0 to 255: below it edges are the sensor's own noise
 
 }  // namespace
 
 Status FeatureExtraction::initialise() {
   extractor_.forget();
+  classes_.prepare(known_parts(), known_table_colour(), 0);
+  light_.forget();
+  without_light_ = 0;
   heard_ = Time{};
   sequence_ = other_sequence_ = 0;
   others_ = 0;
@@ -24,6 +31,11 @@ Status FeatureExtraction::initialise() {
 }
 
 void FeatureExtraction::step(const Tick& tick) {
+  look(tick);
+  condition.publish(PictureCondition{.state = feedback.state});
+}
+
+void FeatureExtraction::look(const Tick& tick) noexcept {
   if (heard_ == Time{}) heard_ = tick.now;
   const auto frame = frames.latest();
   if (!frame || !frame.is_new()) {
@@ -95,12 +107,35 @@ void FeatureExtraction::extract(const CameraFrame& frame, Time sampled_at) noexc
     refuse(PictureState::noise, "the picture is noise: look at the camera and its cable");
     return;
   }
+  if (!is_well_lit(frame)) return;
   loan->frame = frame.sequence;
   loan->time = frame.time;
   loan.publish(sampled_at);
   ++feedback.pictures;
   ++good_;
   if (feedback.state == PictureState::waiting || good_ >= well_again) note(PictureState::good, "");
+}
+
+/// By the table, which fills most of a picture: in other light recognition takes an obstacle for a shadow or
+/// a part.
+bool FeatureExtraction::is_well_lit(const CameraFrame& frame) noexcept {
+  if (feedback.brightness < runtime.dark) {
+    refuse(PictureState::too_dark, "the picture is too dark to tell obstacles from shadows: give more light");
+    return false;
+  }
+  if (feedback.brightness > runtime.bright) {
+    refuse(PictureState::too_bright, "the picture is too bright, its colours are saturated: give less light");
+    return false;
+  }
+  const PictureView picture{frame.data().data(), frame.stride, static_cast<int>(frame.width),
+                            static_cast<int>(frame.height)};
+  // From near above an obstacle the table is hidden, but not for long.
+  without_light_ = light_.look(picture, {}, classes_) ? 0 : without_light_ + 1;
+  if (!light_.sees_no_grey() && without_light_ < most_without_light) return true;
+  refuse(
+      PictureState::colour_cast,
+      "the light is coloured, nothing has the colour of the table: colours cannot be told; give white light");
+  return false;
 }
 
 /// What was refused is nothing to compare the next picture with.

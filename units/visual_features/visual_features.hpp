@@ -9,6 +9,7 @@
 
 #include "runtime/log/log.hpp"
 #include "units/vision/integral_images.hpp"
+#include "units/vision/table_light.hpp"
 #include "visual_features_unit.hpp"
 
 namespace flexrf::user {
@@ -21,20 +22,25 @@ class FeatureExtraction final : public FeatureExtractionUnit {
  private:
   bool is_in_order(const CameraFrame& frame) noexcept;
   bool has_usable_format(const CameraFrame& frame) const noexcept;
+  void look(const Tick& tick) noexcept;
   void extract(const CameraFrame& frame, Time sampled_at) noexcept;
+  bool is_well_lit(const CameraFrame& frame) noexcept;
   void note(PictureState state, const char* trouble) noexcept;
   void refuse(PictureState state, const char* trouble) noexcept;
 
   FeatureExtractor extractor_;
-  Time heard_{};                // when the last picture came, or the first step was
-  std::uint64_t sequence_ = 0;  // of the last picture that was in order
+  ColourClasses classes_;
+  TableLight light_;
+  std::uint32_t without_light_ = 0;  // pictures in a row in which it was not found
+  Time heard_{};                     // when the last picture came, or the first step was
+  std::uint64_t sequence_ = 0;       // of the last picture that was in order
   bool any_ = false;
   // Of pictures out of order: where a camera began to count anew they are in order among themselves.
   std::uint64_t other_sequence_ = 0;
   std::uint32_t others_ = 0;
-  std::uint32_t good_ = 0;        // in a row
-  bool comes_seldom_ = false;     // while it is silent, some pictures came
-  std::array<LogLimit, 8> said_;  // of each state
+  std::uint32_t good_ = 0;         // in a row
+  bool comes_seldom_ = false;      // while it is silent, some pictures came
+  std::array<LogLimit, 11> said_;  // of each state
 };
 
 }  // namespace flexrf::user

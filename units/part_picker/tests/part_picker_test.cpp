@@ -23,13 +23,15 @@ struct World {
   UnitBench<PartPicker> bench;
   SlotBench<TrackList> tracks;
   SlotBench<AttentionGeneration> generation;
+  SlotBench<PictureCondition> condition;
   SlotBench<Pose> tool_pose;
   SlotBench<RobotLead> led_by;
   SlotBench<ServoTarget> servo;
   SlotBench<TargetInHand> in_hand;
-  InputBinding inputs[4] = {
+  InputBinding inputs[5] = {
       tracks.input(std::chrono::milliseconds(300)), generation.input(std::chrono::seconds(1)),
-      tool_pose.input(std::chrono::milliseconds(100)), led_by.input(std::chrono::milliseconds(100))};
+      condition.input(std::chrono::seconds(1)), tool_pose.input(std::chrono::milliseconds(100)),
+      led_by.input(std::chrono::milliseconds(100))};
   SlotControl* outputs[2] = {&servo.control(), &in_hand.control()};
   Device* device = &gripper.driver();
   Device* const* devices[1] = {&device};
@@ -74,6 +76,10 @@ struct World {
       list.tracks[0].measured_at = nanoseconds(bench.now()) - 20'000'000;
       ++list.tracks[0].frames;
       ++list.frame;
+      if (const auto hand = in_hand.latest(); hand && hand->watch_from != hand->watch_to) {
+        list.watched = {hand->watch[0], hand->watch[1], hand->watch_angle};
+        list.watched_at = nanoseconds(bench.now());
+      }
       tracks.publish(list, bench.now());
     }
     bench.step(cycle);

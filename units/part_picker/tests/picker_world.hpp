@@ -27,6 +27,7 @@ inline PickerPlan usual_plan() {
   plan.straight_height = 0.035;
   plan.grasp_height = 0.008;
   plan.drop_height = 0.03;
+  plan.bin_look_offset = 0.06;
   plan.nearest = 0.25;
   plan.farthest = 1.2;
   for (std::size_t i = 0; i < plan.bins.size(); ++i)
@@ -90,6 +91,7 @@ struct PickerWorld {
     machine.step(view, wishes);
     if (machine.state() != before) states.push_back(machine.state());
     count_interruption(before, begun);
+    expect_that_it_looked(before);
     judge(view, before);
     act();
     wishes.open_gripper = false;
@@ -151,6 +153,7 @@ struct PickerWorld {
   bool may_move = true;
   bool stop_requested = false;
   bool sees = true;
+  bool can_tell = true;  ///< what stands where the hand goes down next
   bool tells_pose = true;
   bool is_led = false;
   bool is_stuck = false;
@@ -251,6 +254,7 @@ struct PickerWorld {
         if (tracks_.count < tracks_.tracks.size()) tracks_.tracks[tracks_.count++] = part.track;
       }
       ++tracks_.frame;
+      watch();
     }
     view.now = now;
     view.may_move = may_move;
@@ -267,6 +271,24 @@ struct PickerWorld {
     view.gripper.object = fingers.known().object;
     view.gripper.trouble = fingers.trouble().cause();
     return view;
+  }
+  /// What hangs from the fingers hides what is right below.
+  void watch() {
+    const auto& watch = machine.watch_for();
+    if (!watch || !can_tell) return;
+    const Eigen::Vector2d x(-std::sin(angle), std::cos(angle));
+    const double ahead = (watch->middle - tip.head<2>()).dot(x);
+    if (held != nullptr && (ahead < 0.045 || ahead > 0.1)) return;
+    tracks_.watched = {watch->middle.x(), watch->middle.y(), watch->angle};
+    tracks_.watched_at = now.time_since_epoch().count();
+    told_ = now;
+  }
+  /// The hand goes down where nobody looked only if the camera told just before.
+  void expect_that_it_looked(PickerState before) {
+    const PickerState state = machine.state();
+    const bool goes_down = (state == PickerState::descending && before == PickerState::looking) ||
+                           (state == PickerState::lowering && before == PickerState::looking_into_bin);
+    expect(!goes_down || now - told_ < std::chrono::seconds(1), "goes down where the camera did not look");
   }
   static bool is_before_grasp(PickerState state) {
     return state == PickerState::approaching || state == PickerState::looking ||
@@ -346,6 +368,7 @@ struct PickerWorld {
   Eigen::Vector3d anchor_ = tip;  // where it was last at the travel height, or was led to
   bool rests_ = true;
   Time may_drop_{};
+  Time told_{};  // what stands in the place that is watched
 };
 
 }  // namespace flexrf::user

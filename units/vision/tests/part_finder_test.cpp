@@ -1,5 +1,7 @@
 #include "units/vision/part_finder.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -28,6 +30,21 @@ struct World {
     Glance at = expected.kind == no_kind ? finder.glance(picture, rectangle, blind) : Glance::none(rectangle);
     if (at.is_cut) at = finder.glance_around(picture, at, blind);
     return finder.measure(picture, at, blind, table.view(), expected, {});
+  }
+
+  /// All around a place of so many m, as a hand needs it that is not turned.
+  std::span<const Finding> find_all(const Eigen::Vector2d& middle, double size, double noise = 4) {
+    const PictureView picture = table.picture(noise);
+    finder.look_at_light(picture, {});
+    std::array<Eigen::Vector2d, 4> place;
+    const double half = size / 2;
+    const std::array<Eigen::Vector2d, 4> corners{
+        {{-half, -half}, {half, -half}, {half, half}, {-half, half}}};
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const Eigen::Vector2d at = middle + corners[i];
+      table.view().to_picture({at.x(), at.y(), 0}, place[i]);
+    }
+    return finder.measure_all(picture, table.around(middle, size + 0.03), {}, table.view(), {}, place);
   }
 
   DrawnTable table;
@@ -223,6 +240,50 @@ bool noise_ends_and_is_no_part() {
   return true;
 }
 
+const PartModel post = rectangle_of_tests(0.04, 0.04, 0.09, {70, 70, 75});
+const Eigen::Vector2d looked_at(0.45, 0);
+
+bool a_bare_place_is_told() {
+  const auto world = std::make_unique<World>();
+  return world->find_all(looked_at, 0.12).empty() && world->finder.is_complete();
+}
+
+/// In its middle, and where the border cuts it: more of it lies in the picture's rectangle than in the place.
+bool what_stands_in_a_place_is_told() {
+  for (const double beside : {0.0, 0.03, 0.06, 0.075}) {
+    const auto world = std::make_unique<World>();
+    world->table.put(post, {looked_at + Eigen::Vector2d(beside, 0), 0});
+    world->put(disc, {looked_at + Eigen::Vector2d(-0.035, 0.035), 0});
+    const auto findings = world->find_all(looked_at, 0.12);
+    const bool tells_post = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+      return finding.found == VisualClass::obstacle &&
+             (finding.pose.position - looked_at - Eigen::Vector2d(beside, 0)).norm() < finding.radius + 0.02;
+    });
+    const bool tells_disc = std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+      return finding.found == VisualClass::target && finding.kind == disc;
+    });
+    if (!tells_post || !tells_disc || !world->finder.is_complete()) return false;
+  }
+  return true;
+}
+
+/// Nine things are more than a list holds, and in the dark, or in noise, nobody can tell.
+bool what_cannot_be_told_is_said_so() {
+  const auto crowded = std::make_unique<World>();
+  for (int i = 0; i < 9; ++i)
+    crowded->table.put(rectangle_of_tests(0.018, 0.018, 0.02, {70, 70, 75}),
+                       {looked_at + Eigen::Vector2d(0.045 * (i % 3 - 1), 0.045 * (i / 3 - 1)), 0});
+  crowded->find_all(looked_at, 0.14);
+  if (crowded->finder.is_complete()) return false;
+  const auto dark = std::make_unique<World>();
+  dark->table.fill({0, 0, 0});
+  dark->find_all(looked_at, 0.12, 0);
+  if (dark->finder.is_complete()) return false;
+  const auto noisy = std::make_unique<World>();
+  noisy->find_all(looked_at, 0.12, 255);
+  return !noisy->finder.is_complete();
+}
+
 /// What is expected helps, and where it is wrong it does no harm.
 bool expectations_do_no_harm() {
   const auto world = std::make_unique<World>();
@@ -305,6 +366,11 @@ void nothing(void**) {
 void noise(void**) {
   assert_true(noise_ends_and_is_no_part());
 }
+void places(void**) {
+  assert_true(a_bare_place_is_told());
+  assert_true(what_stands_in_a_place_is_told());
+  assert_true(what_cannot_be_told_is_said_so());
+}
 void expectations(void**) {
   assert_true(expectations_do_no_harm());
 }
@@ -330,6 +396,7 @@ int main() {
                               cmocka_unit_test(light),
                               cmocka_unit_test(nothing),
                               cmocka_unit_test(noise),
+                              cmocka_unit_test(places),
                               cmocka_unit_test(expectations)};
   return cmocka_run_group_tests_name("part finder", tests, nullptr, nullptr);
 }

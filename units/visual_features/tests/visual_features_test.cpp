@@ -20,9 +20,10 @@ struct World {
   UnitBench<FeatureExtraction> bench;
   SlotBench<CameraFrame> frames;
   SlotBench<VisualFeatures> features;
+  SlotBench<PictureCondition> condition;
   SizedItem<CameraFrame> item;
   InputBinding inputs[1] = {frames.input()};
-  SlotControl* outputs[1] = {&features.control()};
+  SlotControl* outputs[2] = {&features.control(), &condition.control()};
   DrawnTable table;
   CameraFrame& frame = *item;
   std::uint64_t sequence = 0;
@@ -34,8 +35,7 @@ struct World {
     binding.outputs = outputs;
     bench.unit().connect(binding);
     initialised = bench.unit().initialise().is_ok();
-    table.put(known_parts()[0], {{0.45, 0.02}, 0.4});
-    table.put(known_parts()[3], {{0.38, -0.05}, 1.4});
+    paint();
     draw(table.picture(4));
   }
   void draw(const PictureView& picture) {
@@ -47,6 +47,19 @@ struct World {
     std::memcpy(frame.data().data(), picture.pixels, frame.size);
   }
   void fill(std::uint8_t value) { std::memset(frame.data().data(), value, frame.size); }
+  /// One picture in such a light, of each channel.
+  void light(double red, double green, double blue) {
+    table.light = {red, green, blue};
+    paint();
+    draw(table.picture(4));
+    table.light = {1, 1, 1};
+    paint();
+  }
+  void paint() {
+    table.clear();
+    table.put(known_parts()[0], {{0.45, 0.02}, 0.4});
+    table.put(known_parts()[3], {{0.38, -0.05}, 1.4});
+  }
   void scatter() {
     std::uint32_t seed = 5;
     for (std::uint8_t& byte : frame.data()) {
@@ -238,6 +251,24 @@ void wrong_formats(void**) {
 void black(void**) {
   assert_true(is_refused_and_told(PictureState::black, "lens covered", [](World& world) { world.fill(3); }));
 }
+void light(void**) {
+  assert_true(is_refused_and_told(PictureState::too_dark, "give more light",
+                                  [](World& world) { world.light(0.2, 0.2, 0.2); }));
+  assert_true(is_refused_and_told(PictureState::too_bright, "give less light",
+                                  [](World& world) { world.light(1.6, 1.6, 1.6); }));
+  assert_true(is_refused_and_told(PictureState::colour_cast, "light is coloured",
+                                  [](World& world) { world.light(1.5, 0.5, 0.5); }));
+  assert_true(is_refused_and_told(PictureState::colour_cast, "light is coloured",
+                                  [](World& world) { world.light(0.5, 0.5, 1.5); }));
+}
+void condition(void**) {
+  const auto world = std::make_unique<World>();
+  world->give();
+  assert_true(world->condition.latest() && world->condition.latest()->state == PictureState::good);
+  world->light(0.2, 0.2, 0.2);
+  world->give();
+  assert_true(world->condition.latest()->state == PictureState::too_dark);
+}
 void noise(void**) {
   assert_true(is_refused_and_told(PictureState::noise, "is noise", [](World& world) { world.scatter(); }));
 }
@@ -260,9 +291,10 @@ void comparison(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(good),    cmocka_unit_test(wrong_formats),
-                              cmocka_unit_test(black),   cmocka_unit_test(noise),
-                              cmocka_unit_test(frozen),  cmocka_unit_test(order),
-                              cmocka_unit_test(silence), cmocka_unit_test(comparison)};
+  const CMUnitTest tests[] = {cmocka_unit_test(good),      cmocka_unit_test(wrong_formats),
+                              cmocka_unit_test(black),     cmocka_unit_test(light),
+                              cmocka_unit_test(condition), cmocka_unit_test(noise),
+                              cmocka_unit_test(frozen),    cmocka_unit_test(order),
+                              cmocka_unit_test(silence),   cmocka_unit_test(comparison)};
   return cmocka_run_group_tests_name("visual features", tests, nullptr, nullptr);
 }
