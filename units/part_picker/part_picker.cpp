@@ -66,6 +66,12 @@ Status PartPicker::initialise() {
                          "reach: the least distance, %g m, has to be below the greatest, %g m",
                          configuration.reach[0], configuration.reach[1]);
   machine_.begin(plan());
+  if (machine_.is_look_out_kept_out())
+    return Status::error(
+        StatusCode::invalid_argument,
+        "look_out (%g, %g) lies in a box of keep_out, or so near that the hand would come into "
+        "it: move the one or the other",
+        configuration.look_out[0], configuration.look_out[1]);
   led_by_picture_ = 0;
   frame_.reset();
   return {};
@@ -113,6 +119,7 @@ PickerView PartPicker::look(const Tick& tick, const View<TrackList>& seen,
   view.now = tick.now;
   view.may_move = !tick.motion_inhibited;
   view.stop_requested = tick.stop_requested;
+  view.finishing = tick.finishing;
   if (seen) {
     view.tracks = &*seen;
     // What recognition tells of the same picture is no other picture.

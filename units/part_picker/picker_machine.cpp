@@ -30,6 +30,7 @@ void PickerMachine::step(const PickerView& view, const PickerWishes& wishes) noe
   if (!picker::watches(state_) && !waits_at_bin_) watch_for_.reset();
   // Fingers finish what they are at; without sight the arm holds.
   if (view.tracks == nullptr) target_.reset();
+  led_to_ = target_;
   view_ = nullptr;
   wishes_ = nullptr;
 }
@@ -91,7 +92,7 @@ bool PickerMachine::watch_gripper() noexcept {
 }
 
 bool PickerMachine::watch_person() noexcept {
-  const bool wants = wishes_->pick && !view_->stop_requested;
+  const bool wants = wishes_->pick && !view_->stop_requested && !view_->finishing;
   if (state_ == PickerState::paused) {
     if (wants) enter(PickerState::retreating);
     return true;
@@ -100,7 +101,9 @@ bool PickerMachine::watch_person() noexcept {
   const bool finishes = in_hand_ || state_ == PickerState::descending || state_ == PickerState::closing ||
                         state_ == PickerState::releasing;
   if (wants || (finishes && !view_->stop_requested)) return false;
-  enter(PickerState::paused, view_->stop_requested ? "a stop is requested" : "picking is switched off");
+  enter(PickerState::paused, view_->stop_requested ? "a stop is requested"
+                             : view_->finishing    ? "the application ends"
+                                                   : "picking is switched off");
   return true;
 }
 
@@ -138,9 +141,15 @@ bool PickerMachine::watch_progress() noexcept {
   if (!picker::is_on_way(state_)) return false;
   const bool rests = view_->now - moved_ > picker::stuck;
   if (!rests && view_->now - entered_ <= wishes_->leg_timeout) return false;
-  const bool has_target = picker::is_on_way_to_part(state_);
-  if (has_target) leave_alone(track_.identity);
-  fail(PickerState::unreachable, rests ? "the arm does not get there" : "the way takes too long");
+  // An arm that says why it does not go there cannot get to this part. One that just does not move would be
+  // no better with another one: it is led on, until it moves.
+  const bool is_stuck = rests && *view_->arm_holds == '\0';
+  const auto led_to = led_to_;
+  if (!is_stuck && picker::is_on_way_to_part(state_)) leave_alone(track_.identity);
+  fail(PickerState::unreachable, is_stuck ? "the arm does not move where it is led"
+                                 : rests  ? "the arm does not get there"
+                                          : "the way takes too long");
+  if (is_stuck) stuck_on_ = led_to;
   return true;
 }
 
@@ -170,6 +179,7 @@ void PickerMachine::act_in_state() noexcept {
       return release();
     case PickerState::unreachable:
     case PickerState::blocked:
+      if (stuck_on_) return push_on();
       return is_watching_ ? watch() : waits_at_bin_ ? look_into_bin() : rise_and_go_on();
     case PickerState::retreating:
     case PickerState::target_lost:
@@ -188,6 +198,11 @@ void PickerMachine::act_in_state() noexcept {
     case PickerState::gripper_trouble:
       return;
   }
+}
+
+void PickerMachine::push_on() noexcept {
+  target_ = stuck_on_;
+  if (!view_->arm_rests) stuck_on_.reset();
 }
 
 /// Whatever was tried is over: up, and on with what there is.
@@ -235,6 +250,7 @@ void PickerMachine::enter(PickerState state, const char* cause) noexcept {
   watched_pictures_ = 0;
   is_watching_ = false;
   waits_at_bin_ = false;
+  stuck_on_.reset();
   is_frozen_ = false;
   // Straight up from here, whoever brought the arm here.
   if (view_->tool) way_begin_ = tip().head<2>();

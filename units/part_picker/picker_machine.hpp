@@ -61,6 +61,7 @@ struct PickerView {
   Time now{};
   bool may_move = false;
   bool stop_requested = false;
+  bool finishing = false;             ///< the application ends: nothing new is begun
   const TrackList* tracks = nullptr;  ///< null: the camera tells nothing
   bool tracks_are_new = false;        ///< others than in the step before
   bool nobody_looks = false;          ///< for what is new on the table: then no way is begun to another part
@@ -93,6 +94,8 @@ class PickerMachine {
  public:
   void begin(const PickerPlan& plan) noexcept;
   void step(const PickerView& view, const PickerWishes& wishes) noexcept;
+  /// The arm may not come to where the plan has it look at the whole table.
+  bool is_look_out_kept_out() const noexcept { return paths_.is_kept_out(plan_.look_out.head<2>()); }
 
   // ---- what is to be done
 
@@ -178,6 +181,7 @@ class PickerMachine {
   void lower() noexcept;
   void release() noexcept;
   void fail(PickerState state, const char* cause) noexcept;
+  void push_on() noexcept;
   void rise_and_go_on() noexcept;
   bool find_spot() noexcept;
   bool is_free(const Eigen::Vector2d& spot) const noexcept;
@@ -216,8 +220,10 @@ class PickerMachine {
   PickerAct act_ = PickerAct::none;
   double opening_ = 0;
   Time entered_{};
-  Time moved_{};         // the arm came nearer, or was told something else
-  ObjectTrack track_{};  // as seen last
+  std::optional<Eigen::Isometry3d> led_to_;    // in the step before
+  std::optional<Eigen::Isometry3d> stuck_on_;  // the way there: the arm does not move
+  Time moved_{};                               // the arm came nearer, or was told something else
+  ObjectTrack track_{};                        // as seen last
   Grasp grasp_{};
   std::uint32_t measured_frames_ = 0;  // of the track, when the look began
   std::uint32_t pictures_ = 0;         // in this state

@@ -38,7 +38,8 @@ void describe_trouble(Writer& writer, const PickerMachine& machine, const Picker
     case PickerState::unreachable:
       if (*view.arm_holds != '\0')
         return writer.say("See to the arm's page.", "Out of reach: %s (%.120s).", cause, view.arm_holds);
-      return writer.say("Lay the part nearer, or see to the arm's page.", "Out of reach: %s.", cause);
+      return writer.say("See to the arm and what may hold it, or lay the part nearer.", "Out of reach: %s.",
+                        cause);
     case PickerState::blocked:
       return writer.say("Take away what is in the way; it goes on by itself.", "The way is blocked: %s.",
                         cause);

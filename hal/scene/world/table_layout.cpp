@@ -24,6 +24,13 @@ bool is_far_from_obstacles(const SceneState& state, const Footprint& placed, dou
   });
 }
 
+bool is_far_from_solids(std::span<const Solid> solids, const Footprint& placed) noexcept {
+  return std::all_of(solids.begin(), solids.end(), [&](const Solid& solid) {
+    const Outline section = solid.section(placed.low, placed.high);
+    return section.count < 3 || separation_of(section, placed, least_distance).gap > least_distance;
+  });
+}
+
 /// Farther than `distance` from all but itself and `neighbour`, from which it only is apart.
 bool is_free(const SceneState& state, const Footprint& placed, std::size_t part, double distance,
              std::size_t neighbour = most_parts) noexcept {
@@ -169,25 +176,23 @@ bool lay_part(SceneState& state, std::size_t part, std::span<const Solid> solids
               SceneRandom& random) noexcept {
   const SceneBody before = state.parts[part];
   if (!lay_by_itself(state, part, before.kind, random, room_for_a_hand)) return false;
-  const Footprint placed = footprint_of(state.parts[part]);
-  for (const Solid& solid : solids) {
-    const Outline section = solid.section(placed.low, placed.high);
-    if (section.count < 3 || separation_of(section, placed, least_distance).gap > least_distance) continue;
-    state.parts[part] = before;
-    return false;
-  }
-  return true;
+  if (is_far_from_solids(solids, footprint_of(state.parts[part]))) return true;
+  state.parts[part] = before;
+  return false;
 }
 
-bool lay_post(SceneState& state, std::size_t obstacle, PlaneVector place, double diameter,
-              double height) noexcept {
+const char* lay_post(SceneState& state, std::size_t obstacle, PlaneVector place, double diameter,
+                     double height, std::span<const Solid> solids) noexcept {
   SceneBody post{};
   post.kind = SceneKind::post;
   post.position = {place.x, place.y, 0};
   post.size = {diameter, diameter, height};
-  if (!is_free(state, footprint_of(post), most_parts, 0)) return false;
+  if (!is_free(state, footprint_of(post), most_parts, 0))
+    return "something stands there; choose another place";
+  if (!is_far_from_solids(solids, footprint_of(post)))
+    return "the arm is there; wait, or choose another place";
   state.obstacles[obstacle] = post;
-  return true;
+  return nullptr;
 }
 
 }  // namespace flexrf

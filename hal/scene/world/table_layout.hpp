@@ -21,8 +21,8 @@ void lay_table(SceneState& state, SceneRandom& random) noexcept;
 bool lay_part(SceneState& state, std::size_t part, std::span<const Solid> solids,
               SceneRandom& random) noexcept;
 
-/// A post on the table. False: something is there.
-bool lay_post(SceneState& state, std::size_t obstacle, PlaneVector place, double diameter,
-              double height) noexcept;
+/// A post on the table. Null: it stands there; else what keeps it from there. The words live for ever.
+const char* lay_post(SceneState& state, std::size_t obstacle, PlaneVector place, double diameter,
+                     double height, std::span<const Solid> solids) noexcept;
 
 }  // namespace flexrf

@@ -306,7 +306,8 @@ const char* TabletopWorld::push_part(std::uint32_t part, PlaneVector place, doub
 const char* TabletopWorld::add_obstacle(PlaneVector place) noexcept {
   for (std::size_t i = laid_obstacles; i < most_obstacles; ++i) {
     if (state_.obstacles[i].kind != SceneKind::none) continue;
-    if (!lay_post(state_, i, place, 0.04, 0.09)) return "something stands there; choose another place";
+    if (const char* const refusal = lay_post(state_, i, place, 0.04, 0.09, solids()); refusal != nullptr)
+      return refusal;
     bodies_.begin(state_);
     count_bodies();
     return nullptr;

@@ -51,7 +51,7 @@ class TabletopWorld {
 
   /// `part`: its number, from 1; 0: the one that is nearest to `place`. `way` in m, `azimuth` in rad from x.
   const char* push_part(std::uint32_t part, PlaneVector place, double way, double azimuth) noexcept;
-  /// A post of 40 mm, 90 mm high.
+  /// A post of 40 mm, 90 mm high, where nothing stands and the arm is not.
   const char* add_obstacle(PlaneVector place) noexcept;
   /// Those that were added.
   const char* remove_obstacles() noexcept;

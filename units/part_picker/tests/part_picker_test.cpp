@@ -234,11 +234,16 @@ bool what_cannot_be_is_refused() {
         world.configuration().keep_out[3] = {.from = {0, 0, 0}, .to = {0.1, -0.1, 0.3}};
       },
       "keep_out");
+  const bool look_out = refuses(
+      [](World& world) {
+        world.configuration().keep_out[0] = {.from = {0.40, -0.05, 0}, .to = {0.46, 0.05, 0.5}};
+      },
+      "look_out");
   const bool reach = refuses([](World& world) { world.configuration().reach = {0.5, 0.4}; }, "reach");
   // Fingers that know open and closed alone could not be opened for a part among others.
   const bool fingers =
       refuses([](World& world) { world.gripper.configuration().two_state = true; }, "gripper");
-  return box && reach && fingers;
+  return box && look_out && reach && fingers;
 }
 
 template <bool (*Run)()>

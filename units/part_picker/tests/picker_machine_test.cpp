@@ -218,6 +218,36 @@ bool an_arm_that_does_not_get_there_gives_up() {
   return true;
 }
 
+/// It is the arm's trouble, and no part's: none is left alone for it.
+bool a_stuck_arm_gives_up_no_part() {
+  PickerWorld world;
+  world.lay_table();
+  if (!world.until(approaching)) return false;
+  world.is_stuck = true;
+  if (!world.run(20) || world.machine.counters().approaches != 1) return false;
+  if (std::strstr(world.machine.cause(), "does not move") == nullptr && !world.until(unreachable, 3))
+    return false;
+  world.is_stuck = false;
+  const Time freed = world.now;
+  if (!world.goes_on(4) || world.machine.counters().given_up != 1) return false;
+  return world.now - freed < std::chrono::seconds(80);
+}
+
+/// A part that is held is brought away, and nothing else is begun.
+bool at_the_end_a_part_in_hand_is_brought_away() {
+  for (const PickerState state : {surveying, approaching, lifting, carrying, lowering}) {
+    PickerWorld world;
+    world.lay_table();
+    if (!world.until(state)) return false;
+    const std::size_t begun = world.machine.holds_part() ? 1 : 0;
+    world.finishing = true;
+    if (!world.until(paused, 10) || !world.run(20) || world.parts_binned() != begun) return false;
+    if (world.machine.state() != paused || std::strstr(world.machine.cause(), "ends") == nullptr)
+      return false;
+  }
+  return true;
+}
+
 bool a_way_that_takes_too_long_is_given_up() {
   PickerWorld world;
   PickerWorld::Part& part = world.add(0, 0.42, -0.10, 0.4);
@@ -366,6 +396,8 @@ int main() {
       {"an obstacle that just came", passes<an_obstacle_that_just_came_is_enough>, nullptr, nullptr, nullptr},
       {"beyond reach", passes<what_is_beyond_reach_is_told>, nullptr, nullptr, nullptr},
       {"the arm is stuck", passes<an_arm_that_does_not_get_there_gives_up>, nullptr, nullptr, nullptr},
+      {"a stuck arm gives up no part", passes<a_stuck_arm_gives_up_no_part>, nullptr, nullptr, nullptr},
+      {"at the end", passes<at_the_end_a_part_in_hand_is_brought_away>, nullptr, nullptr, nullptr},
       {"the way takes too long", passes<a_way_that_takes_too_long_is_given_up>, nullptr, nullptr, nullptr},
       {"a slow camera", passes<a_slow_camera_is_waited_for>, nullptr, nullptr, nullptr},
       {"a grasp fails twice", passes<fingers_that_close_on_nothing_twice_leave_it_alone>, nullptr, nullptr,

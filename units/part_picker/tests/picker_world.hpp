@@ -152,6 +152,7 @@ struct PickerWorld {
   // What a test disturbs.
   bool may_move = true;
   bool stop_requested = false;
+  bool finishing = false;
   bool sees = true;
   bool can_tell = true;  ///< what stands where the hand goes down next
   bool tells_pose = true;
@@ -259,6 +260,7 @@ struct PickerWorld {
     view.now = now;
     view.may_move = may_move;
     view.stop_requested = stop_requested;
+    view.finishing = finishing;
     view.tracks = sees ? &tracks_ : nullptr;
     view.tracks_are_new = sees && new_picture;
     if (tells_pose) view.tool = tool_above(tip, angle, plan.hand.reach);

@@ -225,6 +225,9 @@ bool a_person_does_as_asked() {
   if (world.push_part(2, {}, 0.02, half_turn / 2) != nullptr || !(bench.part(1).position[1] > 0.0199))
     return false;
   if (world.push_part(7, {}, 0.02, 0) == nullptr) return false;
+  bench.jump(0.3, 0.2, 0.05, 0.02);
+  if (world.add_obstacle({0.3, 0.2}) == nullptr || world.counts().contacts != 0) return false;
+  bench.jump(0.3, 0.2, 0.2, 0.02);
   if (world.add_obstacle({0.43, 0}) == nullptr || world.remove_obstacles() == nullptr) return false;
   for (int i = 0; i < 4; ++i)
     if (world.add_obstacle({0.3, -0.2 + 0.1 * i}) != nullptr) return false;
