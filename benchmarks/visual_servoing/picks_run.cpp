@@ -1,19 +1,22 @@
-// One run of the cell in virtual time, judged by the truth: `servoing_picks FILE SEED SECONDS` writes what
-// became of each approach as JSON.
+// One run of the cell in virtual time, judged by the truth: `servoing_picks FILE SEED SECONDS [disturbed]`
+// writes what became of each approach as JSON; disturbed by a person all the time, or by nobody.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "benchmarks/visual_servoing/unreachable_judge.hpp"
 #include "hal/scene/interface/part_catalogue.hpp"
+#include "tests/visual_servoing/disturber.hpp"
 #include "tests/visual_servoing/pick_judge.hpp"
 
 namespace flexrf::bench {
 namespace {
 
 using visual_servoing::Approach;
+using visual_servoing::Disturber;
 using visual_servoing::PickJudge;
 using visual_servoing::ServoingCell;
 using Json = nlohmann::ordered_json;
@@ -30,18 +33,22 @@ std::string cause_of(const Approach& approach) {
   return text;
 }
 
-Json run(std::uint64_t seed, double seconds) {
+Json run(std::uint64_t seed, double seconds, bool is_disturbed) {
   ServoingCell cell(seed);
   PickJudge judge(cell);
   UnreachableJudge unreachable(cell);
+  Disturber person(cell, seed);
   Json contacts = Json::array();
   std::uint64_t touched = 0;
   const RunSummary summary = cell.run(duration_of(seconds), [&] {
     if (cell.elapsed() > seconds) return;  // the arm comes to rest, whatever it was at
     judge.look();
-    unreachable.look();
+    if (is_disturbed)
+      person.look();
+    else
+      unreachable.look();
     if (cell.table().contacts != touched)
-      contacts.push_back({{"at", cell.elapsed()}, {"while", cell.message()}});
+      contacts.push_back({{"at", cell.elapsed()}, {"while", cell.message() + " (" + person.deed() + ")"}});
     touched = cell.table().contacts;
   });
   Json misses = Json::array();
@@ -73,13 +80,14 @@ Json run(std::uint64_t seed, double seconds) {
 }  // namespace flexrf::bench
 
 int main(int count, char** arguments) {
-  if (count != 4) {
-    std::fprintf(stderr, "servoing_picks FILE SEED SECONDS\n");
+  const bool is_disturbed = count == 5 && std::string_view{arguments[4]} == "disturbed";
+  if (count != 4 && !is_disturbed) {
+    std::fprintf(stderr, "servoing_picks FILE SEED SECONDS [disturbed]\n");
     return 1;
   }
   try {
-    const auto result =
-        flexrf::bench::run(std::strtoull(arguments[2], nullptr, 10), std::strtod(arguments[3], nullptr));
+    const auto result = flexrf::bench::run(std::strtoull(arguments[2], nullptr, 10),
+                                           std::strtod(arguments[3], nullptr), is_disturbed);
     std::ofstream(arguments[1]) << result.dump(1) << '\n';
   } catch (const flexrf::fixture::CheckFailed& failed) {
     std::fprintf(stderr, "servoing_picks: %s\n", failed.message.c_str());

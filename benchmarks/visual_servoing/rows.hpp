@@ -15,6 +15,8 @@ namespace flexrf::bench {
 using Json = nlohmann::ordered_json;
 
 bool measure_picks(Report& report);
+/// While a person changes light, obstacles and parts, and covers the lens, at random.
+bool measure_picks_among_disturbances(Report& report);
 bool measure_virtual_time(Report& report);
 /// Processor time of a picture, latency, allocations, pictures with fewer CPUs, and back-off.
 bool measure_by_the_wall(Report& report);

@@ -67,6 +67,7 @@ int run(int argument_count, char** arguments) {
   bool measured = measure_by_the_wall(report);
   measured = measure_virtual_time(report) && measured;
   measured = measure_picks(report) && measured;
+  measured = measure_picks_among_disturbances(report) && measured;
   measured = measure_control_thread(report) && measured;
   const int exit_code = report.finish();
   return measured ? exit_code : 1;
