@@ -1,7 +1,11 @@
 // Each state, and each way out of it, with an ideal arm.
 #include <cstring>
 
+#include "motion/pose_conversion.hpp"
 #include "units/part_picker/tests/picker_world.hpp"
+#include "units/vision/camera_view.hpp"
+#include "units/vision/hidden_part.hpp"
+#include "units/vision/watched_place.hpp"
 
 namespace flexrf::picker_machine_test {
 namespace {
@@ -175,6 +179,53 @@ bool what_the_camera_cannot_tell_is_not_gone_into() {
   world.can_tell = true;
   world.run(31);
   return world.goes_on(2) && next.is_binned;
+}
+
+/// As the units of vision have it that come with the picker.
+CameraModel camera_beside_the_hand() {
+  CameraModel camera{};
+  camera.focal_length = 600;
+  camera.principal_point = {320, 240};
+  camera.width = 640;
+  camera.height = 480;
+  camera.mount.position = {0.05, 0, 0.05};
+  camera.mount.orientation = {0, 0, 0.7071067811865476, 0.7071067811865476};
+  camera.blind = {0, 450, 640, 30};
+  return camera;
+}
+
+/// However a part is held, the camera sees past it all of the place that hand and part will take up.
+bool the_place_in_the_bin_is_seen_past_the_part() {
+  const CameraModel camera = camera_beside_the_hand();
+  for (std::uint16_t kind = 0; kind < part_kinds; ++kind) {
+    for (int i = 0; i < 12; ++i) {
+      PickerWorld world;
+      world.add(kind, 0.45, i % 2 == 0 ? 0.12 : -0.12, 0.5236 * i);
+      if (!world.until(looking_into_bin) || !world.machine.watch_for()) return false;
+      const PickerWatch& watch = *world.machine.watch_for();
+      TargetInHand hand{};
+      hand.watch_map() = watch.middle;
+      hand.watch_angle = watch.angle;
+      hand.watch_from_map() = watch.room.min();
+      hand.watch_to_map() = watch.room.max();
+      hand.held_from_map() = world.machine.held_box().min();
+      hand.held_to_map() = world.machine.held_box().max();
+      const PixelRectangle blind = hidden_part(camera, &hand);
+      const CameraView view(camera, to_pose(tool_above(world.tip, world.angle, world.plan.hand.reach)));
+      const WatchedPlace place(hand);
+      for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
+                                Eigen::AlignedBox2d::TopLeft, Eigen::AlignedBox2d::TopRight}) {
+        Eigen::Vector2d pixel(-1, -1);
+        view.to_picture(place.on_table(place.room().corner(corner)), pixel);
+        const bool is_seen = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width &&
+                             pixel.y() < camera.height &&
+                             !blind.holds(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+        world.expect(is_seen, "a corner of the place is hidden");
+        if (!is_seen) return false;
+      }
+    }
+  }
+  return true;
 }
 
 /// Of what the camera has just seen beside the bin nothing is confirmed yet.
@@ -393,6 +444,7 @@ int main() {
       {"an obstacle in the bin", passes<an_obstacle_in_the_bin_is_waited_for>, nullptr, nullptr, nullptr},
       {"what cannot be told", passes<what_the_camera_cannot_tell_is_not_gone_into>, nullptr, nullptr,
        nullptr},
+      {"seen past the part", passes<the_place_in_the_bin_is_seen_past_the_part>, nullptr, nullptr, nullptr},
       {"an obstacle that just came", passes<an_obstacle_that_just_came_is_enough>, nullptr, nullptr, nullptr},
       {"beyond reach", passes<what_is_beyond_reach_is_told>, nullptr, nullptr, nullptr},
       {"the arm is stuck", passes<an_arm_that_does_not_get_there_gives_up>, nullptr, nullptr, nullptr},

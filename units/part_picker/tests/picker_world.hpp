@@ -27,7 +27,7 @@ inline PickerPlan usual_plan() {
   plan.straight_height = 0.035;
   plan.grasp_height = 0.008;
   plan.drop_height = 0.03;
-  plan.bin_look_offset = 0.06;
+  plan.bin_look_offset = 0.08;
   plan.nearest = 0.25;
   plan.farthest = 1.2;
   for (std::size_t i = 0; i < plan.bins.size(); ++i)
@@ -280,7 +280,7 @@ struct PickerWorld {
     if (!watch || !can_tell) return;
     const Eigen::Vector2d x(-std::sin(angle), std::cos(angle));
     const double ahead = (watch->middle - tip.head<2>()).dot(x);
-    if (held != nullptr && (ahead < 0.045 || ahead > 0.1)) return;
+    if (held != nullptr && (ahead < 0.045 || ahead > 0.12)) return;
     tracks_.watched = {watch->middle.x(), watch->middle.y(), watch->angle};
     tracks_.watched_at = now.time_since_epoch().count();
     told_ = now;
