@@ -134,6 +134,7 @@ void PickerMachine::lift() noexcept {
 
 void PickerMachine::begin_carrying() noexcept {
   // Where something stands in the bin it waits beside it, for there the camera sees when that is gone.
+  look_farther_ = 0;
   find_spot();
   if (begin_way(beside_bin().head<2>())) return enter(PickerState::carrying);
   if (state_ != PickerState::blocked) return fail(PickerState::blocked, paths_.why());
@@ -163,8 +164,15 @@ void PickerMachine::look_into_bin() noexcept {
     enter(PickerState::lowering);
     return lower();
   }
-  if (view_->now - entered_ > wishes_->patience)
-    wait_beside_bin("the camera cannot tell what stands in the bin");
+  if (view_->now - entered_ > wishes_->patience) look_from_elsewhere();
+}
+
+/// Past a part that hides some of the place.
+void PickerMachine::look_from_elsewhere() noexcept {
+  look_farther_ = look_farther_ < picker::most_look_step ? look_farther_ + picker::look_step : 0;
+  if (paths_.is_kept_out(beside_bin().head<2>())) look_farther_ = 0;
+  wait_beside_bin("the camera cannot tell what stands in the bin");
+  entered_ = view_->now;
 }
 
 void PickerMachine::wait_beside_bin(const char* why) noexcept {

@@ -178,6 +178,7 @@ class PickerMachine {
   void carry() noexcept;
   void look_into_bin() noexcept;
   void wait_beside_bin(const char* why) noexcept;
+  void look_from_elsewhere() noexcept;
   void lower() noexcept;
   void release() noexcept;
   void fail(PickerState state, const char* cause) noexcept;
@@ -241,6 +242,7 @@ class PickerMachine {
   std::uint32_t failed_track_ = 0;
   Eigen::Vector2d spot_ = Eigen::Vector2d::Zero();  // in the bin
   bool waits_at_bin_ = false;                       // blocked, beside the bin, where the camera sees into it
+  double look_farther_ = 0;                         // m, than usual beside the place in the bin
   std::optional<PickerWatch> watch_for_;
   std::int64_t watched_at_ = 0;         // ns, the last picture that showed all of that place
   std::uint32_t watched_pictures_ = 0;  // so many did, since it is asked for in this state

@@ -89,7 +89,7 @@ Eigen::Vector3d PickerMachine::over_bin(double height) const noexcept {
 /// From there the camera sees the place in the bin past the part that it holds.
 Eigen::Vector3d PickerMachine::beside_bin() const noexcept {
   const Eigen::Vector2d x(-std::sin(grasp_.angle), std::cos(grasp_.angle));
-  const Eigen::Vector2d place = spot_ - plan_.bin_look_offset * x;
+  const Eigen::Vector2d place = spot_ - (plan_.bin_look_offset + look_farther_) * x;
   return {place.x(), place.y(), plan_.travel_height};
 }
 

@@ -228,6 +228,14 @@ bool the_place_in_the_bin_is_seen_past_the_part() {
   return true;
 }
 
+/// It looks from farther away, and goes on by itself.
+bool a_part_that_hides_the_bin_is_looked_past() {
+  PickerWorld world;
+  world.add(0, 0.42, -0.10, 0.4);
+  world.sees_from = 0.11;
+  return world.goes_on(1) && world.visits(blocked) && world.machine.counters().approaches == 1;
+}
+
 /// Of what the camera has just seen beside the bin nothing is confirmed yet.
 bool an_obstacle_that_just_came_is_enough() {
   PickerWorld world;
@@ -445,6 +453,7 @@ int main() {
       {"what cannot be told", passes<what_the_camera_cannot_tell_is_not_gone_into>, nullptr, nullptr,
        nullptr},
       {"seen past the part", passes<the_place_in_the_bin_is_seen_past_the_part>, nullptr, nullptr, nullptr},
+      {"looked past", passes<a_part_that_hides_the_bin_is_looked_past>, nullptr, nullptr, nullptr},
       {"an obstacle that just came", passes<an_obstacle_that_just_came_is_enough>, nullptr, nullptr, nullptr},
       {"beyond reach", passes<what_is_beyond_reach_is_told>, nullptr, nullptr, nullptr},
       {"the arm is stuck", passes<an_arm_that_does_not_get_there_gives_up>, nullptr, nullptr, nullptr},

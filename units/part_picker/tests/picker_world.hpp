@@ -154,7 +154,8 @@ struct PickerWorld {
   bool stop_requested = false;
   bool finishing = false;
   bool sees = true;
-  bool can_tell = true;  ///< what stands where the hand goes down next
+  double sees_from = 0.045;  ///< m beside a place in the bin
+  bool can_tell = true;      ///< what stands where the hand goes down next
   bool tells_pose = true;
   bool is_led = false;
   bool is_stuck = false;
@@ -280,7 +281,7 @@ struct PickerWorld {
     if (!watch || !can_tell) return;
     const Eigen::Vector2d x(-std::sin(angle), std::cos(angle));
     const double ahead = (watch->middle - tip.head<2>()).dot(x);
-    if (held != nullptr && (ahead < 0.045 || ahead > 0.12)) return;
+    if (held != nullptr && (ahead < sees_from || ahead > 0.13)) return;
     tracks_.watched = {watch->middle.x(), watch->middle.y(), watch->angle};
     tracks_.watched_at = now.time_since_epoch().count();
     told_ = now;
