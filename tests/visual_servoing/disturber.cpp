@@ -79,7 +79,7 @@ void Disturber::begin() {
   tell("table laid anew");
 }
 
-/// To the usual light, or to another one: an end of each range as often as what lies between.
+/// Sets the usual light, or another one: each end of a range as often as all that lies between.
 void Disturber::change_light() {
   const bool is_usual = random_.below(2) == 0;
   const auto value = [&](double low, double high, double usual) {

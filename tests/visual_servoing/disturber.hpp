@@ -18,7 +18,7 @@ class Disturber {
   Disturber(ServoingCell& cell, std::uint64_t seed) : cell_(cell) { random_.seed(seed); }
   /// Once in each cycle.
   void look();
-  /// What the person did last, in words.
+  /// The person's last deed, in words.
   const std::string& deed() const { return deed_; }
   bool verbose = false;
 

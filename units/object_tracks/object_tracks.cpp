@@ -122,7 +122,7 @@ void ObjectTracks::take(const VisionVerdict& verdict) noexcept {
     take_watch(verdict);
 }
 
-/// All that stands in the watched place was told: no other obstacle stands there.
+/// The verdicts told all that stands in the watched place: an obstacle that they do not name was missed.
 void ObjectTracks::take_watch(const VisionVerdict& verdict) noexcept {
   list_.watched_at = verdict.region.time;
   is_changed_ = true;
@@ -298,7 +298,7 @@ void ObjectTracks::end(std::size_t place) noexcept {
   beside_[place] = {};
 }
 
-/// What is not confirmed, and was not measured for long.
+/// Ends tracks that are not confirmed and were not measured for long.
 void ObjectTracks::forget_before(std::int64_t time) noexcept {
   for (std::size_t i = 0; i < most_tracks; ++i) {
     const ObjectTrack& track = list_.tracks[i];

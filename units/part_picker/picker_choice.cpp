@@ -171,7 +171,7 @@ bool PickerMachine::find_spot() noexcept {
   return false;
 }
 
-/// Where the tip is when the part is over that place.
+/// The tip's place when the part is over that place.
 Eigen::Vector2d PickerMachine::tip_over(const Eigen::Vector2d& place) const noexcept {
   return place + held_grasp_.middle - Eigen::Vector2d(held_.position_map());
 }

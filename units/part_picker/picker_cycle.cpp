@@ -133,7 +133,7 @@ void PickerMachine::lift() noexcept {
 }
 
 void PickerMachine::begin_carrying() noexcept {
-  // Where something stands in the bin it waits beside it, for there the camera sees when that is gone.
+  // The hand goes there even if something stands in the bin: from there the camera sees when that is gone.
   look_farther_ = 0;
   find_spot();
   if (begin_way(beside_bin().head<2>())) return enter(PickerState::carrying);
@@ -148,7 +148,7 @@ void PickerMachine::carry() noexcept {
   look_into_bin();
 }
 
-/// Also while it is blocked there.
+/// In the state looking_into_bin, and while the picker is blocked beside the bin.
 void PickerMachine::look_into_bin() noexcept {
   if (!keeps_part()) return;
   aim(beside_bin(), grasp_.angle);
@@ -167,7 +167,7 @@ void PickerMachine::look_into_bin() noexcept {
   if (view_->now - entered_ > wishes_->patience) look_from_elsewhere();
 }
 
-/// Past a part that hides some of the place.
+/// From farther away the camera may see past a part that hides some of the place.
 void PickerMachine::look_from_elsewhere() noexcept {
   look_farther_ = look_farther_ < picker::most_look_step ? look_farther_ + picker::look_step : 0;
   if (paths_.is_kept_out(beside_bin().head<2>())) look_farther_ = 0;
@@ -184,7 +184,8 @@ void PickerMachine::wait_beside_bin(const char* why) noexcept {
 
 void PickerMachine::lower() noexcept {
   if (!keeps_part()) return;
-  // Going down it sees but its own hand and what that throws a shadow on.
+  // On the way down the camera sees only the hand and its shadow: what tracks then say of the place is not
+  // used.
   if (view_->tracks_are_new && !is_over_ && !is_free(spot_))
     return fail(PickerState::blocked, "an obstacle stands in the bin");
   if (!go(over_bin(plan_.drop_height), grasp_.angle)) return;

@@ -115,7 +115,7 @@ class PickerMachine {
   const ObjectTrack& part() const noexcept { return track_; }
   const Grasp& grasp() const noexcept { return grasp_; }
   bool holds_part() const noexcept { return in_hand_; }
-  /// What the camera has to show before the hand goes down there; nothing: it goes down nowhere.
+  /// The place that the camera has to show before the hand goes down there; nothing: it goes down nowhere.
   const std::optional<PickerWatch>& watch_for() const noexcept { return watch_for_; }
   /// There is a part between the fingers, or was until just now.
   bool shows_part() const noexcept { return shows_part_; }

@@ -37,7 +37,8 @@ inline constexpr std::uint32_t watched_pictures = 2;
 // own room is watched, wider by this.
 inline constexpr double same_watch = 0.004;
 inline constexpr double same_watch_turned = 0.05;
-// Where the camera cannot tell what stands in the bin it looks from farther away, in steps, up to so much; m.
+// If the camera cannot tell what stands in the bin the hand looks from farther away, in steps, up to so much;
+// m.
 inline constexpr double look_step = 0.02;
 inline constexpr double most_look_step = 0.04;
 // So long a failure is shown at least.

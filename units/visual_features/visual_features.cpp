@@ -116,8 +116,8 @@ void FeatureExtraction::extract(const CameraFrame& frame, Time sampled_at) noexc
   if (feedback.state == PictureState::waiting || good_ >= well_again) note(PictureState::good, "");
 }
 
-/// By the table, which fills most of a picture: in other light recognition takes an obstacle for a shadow or
-/// a part.
+/// False, and the picture refused: in such light recognition would take an obstacle for a shadow, the table
+/// or a part. The table fills most of a picture, so its brightness and colour tell the light.
 bool FeatureExtraction::is_well_lit(const CameraFrame& frame) noexcept {
   if (feedback.brightness < runtime.dark) {
     refuse(PictureState::too_dark, "the picture is too dark to tell obstacles from shadows: give more light");

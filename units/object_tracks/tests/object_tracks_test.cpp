@@ -161,7 +161,7 @@ bool what_is_not_confirmed_is_forgotten() {
   return there && world->count() == 0;
 }
 
-/// Where light or a piece of something else leaves a doubt it may still stand there.
+/// A doubtful look, by light or by a piece of something else, does not say that it is gone.
 bool an_obstacle_is_gone_only_where_nothing_is_in_doubt() {
   const auto world = std::make_unique<World>();
   world->follow(6, 0.42, 0.03, no_kind);
@@ -244,7 +244,7 @@ bool a_watched_place_is_told_of() {
   return told_at() == 0 && world->tracks.latest()->watched[0] == 0.46;
 }
 
-/// What the camera saw wrongly, and from where it cannot see all of it again.
+/// Such an obstacle was seen wrongly, and the camera cannot see all of its own region again.
 bool an_obstacle_in_a_watched_place_that_is_bare_is_gone() {
   const auto world = std::make_unique<World>();
   world->follow(6, 0.46, 0.04, no_kind);

@@ -161,7 +161,7 @@ bool an_obstacle_in_the_bin_is_waited_for() {
   return true;
 }
 
-/// Where the camera cannot tell what stands in the bin, or beside the part, the hand does not go down.
+/// The hand does not go down if the camera cannot tell what stands in the bin, or beside the part.
 bool what_the_camera_cannot_tell_is_not_gone_into() {
   PickerWorld world;
   const PickerWorld::Part& part = world.add(0, 0.42, -0.10, 0.4);
@@ -181,7 +181,7 @@ bool what_the_camera_cannot_tell_is_not_gone_into() {
   return world.goes_on(2) && next.is_binned;
 }
 
-/// As the units of vision have it that come with the picker.
+/// The default of `camera` in the tables of the vision units.
 CameraModel camera_beside_the_hand() {
   CameraModel camera{};
   camera.focal_length = 600;
@@ -228,7 +228,7 @@ bool the_place_in_the_bin_is_seen_past_the_part() {
   return true;
 }
 
-/// It looks from farther away, and goes on by itself.
+/// The hand looks from farther away, and goes on by itself.
 bool a_part_that_hides_the_bin_is_looked_past() {
   PickerWorld world;
   world.add(0, 0.42, -0.10, 0.4);
@@ -236,7 +236,7 @@ bool a_part_that_hides_the_bin_is_looked_past() {
   return world.goes_on(1) && world.visits(blocked) && world.machine.counters().approaches == 1;
 }
 
-/// Of what the camera has just seen beside the bin nothing is confirmed yet.
+/// An obstacle that came just now is not confirmed yet, and is reason enough.
 bool an_obstacle_that_just_came_is_enough() {
   PickerWorld world;
   world.add(0, 0.42, -0.10, 0.4);
@@ -277,7 +277,7 @@ bool an_arm_that_does_not_get_there_gives_up() {
   return true;
 }
 
-/// It is the arm's trouble, and no part's: none is left alone for it.
+/// A stuck arm is no part's trouble: no part is left alone for it.
 bool a_stuck_arm_gives_up_no_part() {
   PickerWorld world;
   world.lay_table();

@@ -275,7 +275,7 @@ struct PickerWorld {
     view.gripper.trouble = fingers.trouble().cause();
     return view;
   }
-  /// What hangs from the fingers hides what is right below.
+  /// A part that hangs from the fingers hides the place right below.
   void watch() {
     const auto& watch = machine.watch_for();
     if (!watch || !can_tell) return;
