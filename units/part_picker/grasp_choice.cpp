@@ -170,8 +170,8 @@ bool hand_meets_obstacle(const Grasp& grasp, const ObjectTrack& obstacle, const 
   return palm.distance_to(place) < wanted;
 }
 
-bool counts(const ObjectTrack& other, const ObjectTrack& track, const HandRoom& room) {
-  return other.identity != 0 && other.identity != track.identity && other.found != VisualClass::nothing &&
+bool counts(const ObjectTrack& other, const HandRoom& room) {
+  return other.identity != 0 && other.found != VisualClass::nothing &&
          (other.confirmed || (room.wary && other.found == VisualClass::obstacle));
 }
 
@@ -209,9 +209,9 @@ const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList&
     grasp.opening = widest + (least - widest) * i / (tries - 1);
     reason = nullptr;
     for (const ObjectTrack& other : all.tracks) {
-      if (!counts(other, track, room)) continue;
+      if (other.identity == track.identity || !counts(other, room)) continue;
       if (other.found == VisualClass::obstacle) {
-        if (hand_meets_obstacle(grasp, other, hand, room)) reason = "an obstacle is in the way of the hand";
+        if (hand_meets_obstacle(grasp, other, hand, room)) reason = in_way_of_hand;
       } else if (other.kind < known_parts().size() && fingers_meet_part(grasp, other, hand, room)) {
         reason = "another part is in the way of the fingers";
       }
@@ -220,6 +220,14 @@ const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList&
     if (reason == nullptr) return nullptr;
   }
   return reason;
+}
+
+bool meets_obstacle(const Grasp& grasp, const TrackList& all, const HandShape& hand,
+                    const HandRoom& room) noexcept {
+  return std::any_of(all.tracks.begin(), all.tracks.end(), [&](const ObjectTrack& other) {
+    return other.found == VisualClass::obstacle && counts(other, room) &&
+           hand_meets_obstacle(grasp, other, hand, room);
+  });
 }
 
 std::optional<Grasp> free_grasp(const ObjectTrack& track, const TrackList& all, double preferred,

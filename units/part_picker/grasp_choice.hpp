@@ -56,6 +56,11 @@ Grasp grasp_of(const ObjectTrack& track, std::size_t number, double preferred) n
 const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList& all, const HandShape& hand,
                         const HandRoom& room) noexcept;
 
+/// Some obstacle stands in the way of the hand at this grasp.
+bool meets_obstacle(const Grasp& grasp, const TrackList& all, const HandShape& hand,
+                    const HandRoom& room) noexcept;
+inline constexpr const char* in_way_of_hand = "an obstacle is in the way of the hand";
+
 /// The free way to take it that turns the hand least, away from `preferred`, and by less than half a turn;
 /// nothing, and `blocked_by` told,
 /// where none is free.

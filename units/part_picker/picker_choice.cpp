@@ -132,10 +132,15 @@ bool PickerMachine::follow_track() noexcept {
 
 /// The way that was free may be so no longer: then the part is taken in another way, if there is one.
 const char* PickerMachine::what_blocks_now() noexcept {
-  if (is_frozen_ || !view_->tracks_are_new) return nullptr;
+  if (is_straight_ || !view_->tracks_are_new) return nullptr;
   Grasp grasp = grasp_;
   HandRoom room = plan_.room;
   room.wary = state_ == PickerState::descending;
+  if (is_frozen_) {
+    // From so near parts are seen in pieces, and the fingers have come from behind.
+    room.slant = 0;
+    return meets_obstacle(grasp, *view_->tracks, plan_.hand, room) ? in_way_of_hand : nullptr;
+  }
   const char* blocked = what_blocks(grasp, track_, *view_->tracks, plan_.hand, room);
   if (blocked != nullptr && state_ != PickerState::descending) {
     if (const auto other = free_grasp(track_, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked)) {

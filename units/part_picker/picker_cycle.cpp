@@ -61,8 +61,6 @@ void PickerMachine::look() noexcept {
   const bool is_watched = watched_pictures_ >= picker::watched_pictures;
   if (is_measured && is_watched && is_at(over_part(), picker::arrives) && is_turned(grasp_.angle) &&
       !view_->gripper.moving) {
-    is_frozen_ = false;
-    is_straight_ = false;
     return enter(PickerState::descending);
   }
   if (view_->now - entered_ <= wishes_->patience) return;
@@ -80,7 +78,10 @@ void PickerMachine::descend() noexcept {
   if ((grasp_.middle - way_begin_).norm() > plan_.room.slant + picker::follows)
     return fail(PickerState::target_lost, "it was moved away");
   if (needs_opening_) open_for_grasp();
-  if (!is_frozen_) watch_grasp(0);
+  if (is_frozen_)
+    watch_ahead_of_grasp();
+  else
+    watch_grasp(0);
   // From there the camera no longer sees all of the part.
   const bool was_frozen = is_frozen_;
   is_frozen_ = is_frozen_ || is_at(at_grasp(plan_.straight_height), picker::last_seen_within);
@@ -89,7 +90,12 @@ void PickerMachine::descend() noexcept {
     return fail(PickerState::blocked, "the camera cannot tell what lies beside the part");
   // Only from rest the stream's way is a straight line: an arm that was led on from its slanted way swung by
   // up to 16 mm between obstacles that stood 4 mm beside it.
-  is_straight_ = is_straight_ || (is_frozen_ && view_->arm_rests);
+  // There a few more pictures are looked at: of an obstacle that came just before they are the last ones.
+  if (!is_frozen_ || !view_->arm_rests)
+    rest_pictures_ = 0;
+  else if (view_->tracks_are_new)
+    ++rest_pictures_;
+  is_straight_ = is_straight_ || rest_pictures_ >= picker::rest_pictures;
   const Eigen::Vector3d goal = at_grasp(is_straight_ ? 0 : plan_.straight_height);
   aim(goal, grasp_.angle);
   if (!is_straight_) return;

@@ -252,6 +252,8 @@ void PickerMachine::enter(PickerState state, const char* cause) noexcept {
   waits_at_bin_ = false;
   stuck_on_.reset();
   is_frozen_ = false;
+  is_straight_ = false;
+  rest_pictures_ = 0;
   // Straight up from here, whoever brought the arm here.
   if (view_->tool) way_begin_ = tip().head<2>();
 }

@@ -189,6 +189,7 @@ class PickerMachine {
   Eigen::Vector2d tip_over(const Eigen::Vector2d& spot) const noexcept;
   void ask_to_watch(const Eigen::Vector2d& middle, const Eigen::AlignedBox2d& room) noexcept;
   void watch_grasp(double behind) noexcept;
+  void watch_ahead_of_grasp() noexcept;
   void count_watched_pictures() noexcept;
   void watch_spot() noexcept;
   bool keeps_part() noexcept;
@@ -233,12 +234,13 @@ class PickerMachine {
   bool shows_part_ = false;
   ObjectTrack held_{};  // as it lay when the fingers closed
   Grasp held_grasp_{};
-  Time let_go_{};                   // until then pictures may show it
-  bool is_frozen_ = false;          // the way down no longer follows the track
-  bool is_straight_ = false;        // the way down is the last, straight one
-  std::uint32_t since_survey_ = 0;  // parts that were binned
-  bool needs_survey_ = true;        // the whole table has not been looked at since others were here
-  bool is_watching_ = false;        // at the look-out, until there is a part that can be picked
+  Time let_go_{};                    // until then pictures may show it
+  bool is_frozen_ = false;           // the way down no longer follows the track
+  std::uint32_t rest_pictures_ = 0;  // while it rested above the straight way
+  bool is_straight_ = false;         // the way down is the last, straight one
+  std::uint32_t since_survey_ = 0;   // parts that were binned
+  bool needs_survey_ = true;         // the whole table has not been looked at since others were here
+  bool is_watching_ = false;         // at the look-out, until there is a part that can be picked
   std::uint32_t failed_track_ = 0;
   Eigen::Vector2d spot_ = Eigen::Vector2d::Zero();  // in the bin
   bool waits_at_bin_ = false;                       // blocked, beside the bin, where the camera sees into it

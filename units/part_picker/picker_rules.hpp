@@ -33,6 +33,8 @@ inline constexpr Duration hand_pause = std::chrono::milliseconds(500);
 inline constexpr std::uint32_t sees_again = 5;
 // So many of them have to show all of the place into which the hand goes down next.
 inline constexpr std::uint32_t watched_pictures = 2;
+// So many pictures are looked at while the arm rests above the straight way down.
+inline constexpr std::uint32_t rest_pictures = 4;
 // A place that moves farther than this is another one, which is watched anew; m and rad. Around it the hand's
 // own room is watched, wider by this.
 inline constexpr double same_watch = 0.004;

@@ -102,7 +102,14 @@ void PickerMachine::watch_grasp(double behind) noexcept {
                {Eigen::Vector2d(-std::max(x, hand.finger_width / 2 + behind), -y), Eigen::Vector2d(x, y)});
 }
 
-/// That of the hand and of the part in it.
+/// The front half of the hand's room: from so near the rest lies behind the picture's lower edge.
+void PickerMachine::watch_ahead_of_grasp() noexcept {
+  const HandShape& hand = plan_.hand;
+  const double y = std::max(hand.palm_length / 2, grasp_.opening / 2 + hand.finger_thickness);
+  ask_to_watch(grasp_.middle, {Eigen::Vector2d(0, -y), Eigen::Vector2d(hand.palm_width / 2, y)});
+}
+
+/// The room of the hand and of the part in it.
 void PickerMachine::watch_spot() noexcept {
   const Eigen::AlignedBox3d part = held_box();
   const Eigen::Vector2d hand(plan_.hand.palm_width / 2, plan_.hand.palm_length / 2);
