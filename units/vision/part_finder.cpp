@@ -106,8 +106,10 @@ std::span<const Finding> PartFinder::measure_all(const PictureView& picture, con
   pixels_ = look(picture, rectangle, blind);
   is_complete_ = is_lit_ && !bitmap_.is_full();
   for (const Blob& blob : bitmap_.blobs()) {
-    const bool is_told = tell(blob, true, view, Finding{}, limits);
-    is_complete_ = is_complete_ && (is_told || is_small(blob, view, limits) || !meets(blob, place));
+    const bool is_in_place = meets(blob, place);
+    // Of a piece beside the place nobody knows where its middle is, and nobody has to.
+    const bool is_told = tell(blob, is_in_place || !bitmap_.is_cut(blob, picture), view, Finding{}, limits);
+    is_complete_ = is_complete_ && (is_told || !is_in_place || is_small(blob, view, limits));
   }
   return {findings_.data(), count_};
 }
