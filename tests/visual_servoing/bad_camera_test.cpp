@@ -14,8 +14,8 @@ struct BadPictures {
   CameraFault fault = CameraFault::none;
   PickerState during = PickerState::approaching;
   PictureState told = PictureState::good;
-  const char* trouble = "";  ///< told by features, and in the log
-  const char* message = "";  ///< by the picker
+  const char* trouble = "";       ///< told by features, in the log, and by the picker
+  const char* message = nullptr;  ///< by the picker, where that says it otherwise
   Duration lasts = seconds(1);
 };
 
@@ -30,7 +30,8 @@ void the_arm_holds_until_pictures_are_good(const BadPictures& bad) {
                trouble.check_stillness();
                CHECK_EQUAL(trouble.picker.state, PickerState::no_sight);
                trouble.check_message("The camera tells nothing, the arm holds: ", "See to the camera");
-               CHECK_CONTAINS(trouble.picker.message_view(), bad.message);
+               CHECK_CONTAINS(trouble.picker.message_view(),
+                              bad.message != nullptr ? bad.message : bad.trouble);
                CHECK_EQUAL(trouble.features.state, bad.told);
                CHECK_CONTAINS(trouble.features.trouble_view(), bad.trouble);
                CHECK_CONTAINS(trouble.robot.holding_view(), "the arm holds");
@@ -54,8 +55,7 @@ void no_camera() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::unplugged,
                                          .during = PickerState::approaching,
                                          .told = PictureState::silent,
-                                         .trouble = "no picture comes",
-                                         .message = "no picture comes"});
+                                         .trouble = "no picture comes"});
   CHECK(was_said("is it plugged in?"));
 }
 
@@ -64,8 +64,7 @@ void black_pictures_on_the_way_down() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::black,
                                          .during = PickerState::descending,
                                          .told = PictureState::black,
-                                         .trouble = "is the lens covered, or the light out?",
-                                         .message = "the picture is black"});
+                                         .trouble = "is the lens covered, or the light out?"});
 }
 
 // [trouble-3]
@@ -73,8 +72,7 @@ void a_frozen_picture_with_a_part_in_hand() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::frozen,
                                          .during = PickerState::carrying,
                                          .told = PictureState::frozen,
-                                         .trouble = "the camera repeats a picture",
-                                         .message = "the camera repeats a picture"});
+                                         .trouble = "the camera repeats a picture"});
 }
 
 // [trouble-4]
@@ -82,8 +80,7 @@ void pictures_of_the_wrong_size() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::wrong_size,
                                          .during = PickerState::surveying,
                                          .told = PictureState::wrong_format,
-                                         .trouble = "not rgb24 of 640x480",
-                                         .message = "a format that cannot be used"});
+                                         .trouble = "not rgb24 of 640x480"});
 }
 
 // [trouble-5]
@@ -91,8 +88,7 @@ void noise_as_a_part_is_lifted() {
   the_arm_holds_until_pictures_are_good({.fault = CameraFault::noise,
                                          .during = PickerState::lifting,
                                          .told = PictureState::noise,
-                                         .trouble = "the picture is noise",
-                                         .message = "the picture is noise"});
+                                         .trouble = "the picture is noise"});
 }
 
 /// It does not go a bit with each.
@@ -106,7 +102,7 @@ void one_picture_a_second() {
                                          .lasts = milliseconds(2400)});
 }
 
-/// Of the table's page, at their ends.
+/// Values of the page *Table*, and what is said by them.
 struct Light {
   double intensity = 1;
   double elevation = 1.1;
@@ -156,7 +152,7 @@ void light_that_is_too_bright() {
 // [trouble-14]
 void coloured_light() {
   the_arm_holds_until_the_light_is_good(
-      {.tint = {0.5, -0.5, -0.5}, .told = PictureState::colour_cast, .message = "so coloured"});
+      {.tint = {0.5, -0.5, -0.5}, .told = PictureState::colour_cast, .message = "light is coloured"});
 }
 
 /// Each second one is used.

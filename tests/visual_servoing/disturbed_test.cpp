@@ -22,6 +22,7 @@ void nothing_is_touched() {
                 static_cast<int>(seed), cell.elapsed(), cell.message().c_str(), person.deed().c_str());
   });
   CHECK_EQUAL(cell.table().contacts, 0U);
+  CHECK(cell.picker().lost_parts <= person.tables());
   constexpr std::uint64_t least_binned = 5;  // 10 to 35 are usual
   CHECK(cell.picker().binned >= least_binned);
 }

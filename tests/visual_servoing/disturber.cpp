@@ -76,7 +76,8 @@ void Disturber::begin() {
   }
   if (goes_blind(cell_.picker().state)) return;
   cell_.press("table", "lay_table");
-  tell("table laid anew");
+  ++tables_;
+  tell("table laid again");
 }
 
 /// Sets the usual light, or another one: each end of a range as often as all that lies between.

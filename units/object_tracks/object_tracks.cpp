@@ -74,7 +74,7 @@ void ObjectTracks::step(const Tick& tick) {
   is_changed_ = false;
 }
 
-/// A place that is asked for anew has not been looked at yet.
+/// Another place than before has not been looked at yet.
 void ObjectTracks::watch(const TargetInHand* hand) noexcept {
   const TargetInHand asked = hand != nullptr ? *hand : TargetInHand{};
   if (asked.watch != watched_.watch || asked.watch_angle != watched_.watch_angle ||

@@ -1,7 +1,6 @@
 #include "units/part_picker/part_picker.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "hal/gripper/interface/gripper.hpp"
 #include "hal/scene/interface/part_catalogue.hpp"
@@ -18,31 +17,10 @@ bool do_others_lead(const RobotLead& lead) {
   return lead.moving && lead.activity != RobotActivity::servo && lead.activity != RobotActivity::none;
 }
 
-/// `pictures`: how it stands with them, if that is known.
-const char* why_blind(NullReason reason, std::optional<PictureState> pictures) {
-  switch (pictures.value_or(PictureState::waiting)) {
-    case PictureState::too_dark:
-      return "the picture is too dark to tell obstacles from shadows";
-    case PictureState::too_bright:
-      return "the picture is too bright, its colours are saturated";
-    case PictureState::colour_cast:
-      return "the light is so coloured that colours cannot be told";
-    case PictureState::black:
-      return "the picture is black, as when the lens is covered or the light is out";
-    case PictureState::noise:
-      return "the picture is noise";
-    case PictureState::wrong_format:
-      return "the pictures have a format that cannot be used";
-    case PictureState::frozen:
-      return "the camera repeats a picture";
-    case PictureState::silent:
-      return "no picture comes, or they come too seldom";
-    case PictureState::waiting:
-    case PictureState::good:
-    case PictureState::out_of_order:
-      return reason == NullReason::too_old ? "no picture that can be used comes" : name_of(reason);
-  }
-  return "";
+/// `trouble`: of the pictures, as their unit tells it; null: it tells nothing.
+const char* why_blind(NullReason reason, const char* trouble) {
+  if (trouble != nullptr && *trouble != '\0') return trouble;
+  return reason == NullReason::too_old ? "no picture that can be used comes" : name_of(reason);
 }
 
 }  // namespace
@@ -206,8 +184,7 @@ void PartPicker::tell(const PickerView& view, const View<TrackList>& seen) noexc
   }
   const auto pictures = condition.latest();
   const PickerMessage text = describe(
-      machine_, view,
-      seen ? "" : why_blind(seen.reason(), pictures ? std::optional{pictures->state} : std::nullopt));
+      machine_, view, seen ? "" : why_blind(seen.reason(), pictures ? pictures->trouble.data() : nullptr));
   feedback.state = machine_.state();
   feedback.set_message(text.message.data());
   feedback.set_remedy(text.remedy);

@@ -181,7 +181,7 @@ Eigen::Vector2d PickerMachine::tip_over(const Eigen::Vector2d& place) const noex
   return place + held_grasp_.middle - Eigen::Vector2d(held_.position_map());
 }
 
-/// Of obstacles: no part of the hand comes near one, however it is turned.
+/// No obstacle stands within the hand's reach of the place, however the hand is turned.
 bool PickerMachine::is_free(const Eigen::Vector2d& spot) const noexcept {
   const double hand = std::hypot(plan_.hand.palm_length, plan_.hand.palm_width) / 2;
   const auto& tracks = view_->tracks->tracks;

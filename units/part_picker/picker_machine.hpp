@@ -115,6 +115,8 @@ class PickerMachine {
   const ObjectTrack& part() const noexcept { return track_; }
   const Grasp& grasp() const noexcept { return grasp_; }
   bool holds_part() const noexcept { return in_hand_; }
+  /// The arm does not move where it is led, and does not say why.
+  bool is_stuck() const noexcept { return stuck_on_.has_value(); }
   /// The place that the camera has to show before the hand goes down there; nothing: it goes down nowhere.
   const std::optional<PickerWatch>& watch_for() const noexcept { return watch_for_; }
   /// There is a part between the fingers, or was until just now.
@@ -247,7 +249,7 @@ class PickerMachine {
   double look_farther_ = 0;                         // m, than usual beside the place in the bin
   std::optional<PickerWatch> watch_for_;
   std::int64_t watched_at_ = 0;         // ns, the last picture that showed all of that place
-  std::uint32_t watched_pictures_ = 0;  // so many did, since it is asked for in this state
+  std::uint32_t watched_pictures_ = 0;  // that showed it since this state began
   Eigen::Vector2d way_begin_ = Eigen::Vector2d::Zero();
   std::size_t way_place_ = 0;
   bool needs_opening_ = false;  // as wide as the grasp says

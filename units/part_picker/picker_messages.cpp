@@ -2,6 +2,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <string_view>
 
 #include "units/vision/part_model.hpp"
 
@@ -38,8 +39,9 @@ void describe_trouble(Writer& writer, const PickerMachine& machine, const Picker
     case PickerState::unreachable:
       if (*view.arm_holds != '\0')
         return writer.say("See to the arm's page.", "Out of reach: %s (%.120s).", cause, view.arm_holds);
-      return writer.say("See to the arm and what may hold it, or lay the part nearer.", "Out of reach: %s.",
-                        cause);
+      if (machine.is_stuck())
+        return writer.say("See what holds the arm; it goes on by itself.", "Stuck: %s.", cause);
+      return writer.say("Lay the part nearer, or see to the arm's page.", "Out of reach: %s.", cause);
     case PickerState::blocked:
       return writer.say("Take away what is in the way; it goes on by itself.", "The way is blocked: %s.",
                         cause);
@@ -78,15 +80,16 @@ PickerMessage describe(const PickerMachine& machine, const PickerView& view, con
     case PickerState::paused:
       writer.say("Switch Pick on to go on.", "Paused: %s.", machine.cause());
       break;
-    case PickerState::no_sight:
+    case PickerState::no_sight: {
+      const std::string_view why = *machine.cause() != '\0' ? machine.cause()
+                                   : *sight != '\0'         ? sight
+                                                    : "pictures come again, and a few more are waited for";
       writer.say(
           "See to the camera, the lens and the light, and what the unit of its pictures says; it goes on by "
           "itself.",
-          "The camera tells nothing, the arm holds: %.150s.",
-          *machine.cause() != '\0' ? machine.cause()
-          : *sight != '\0'         ? sight
-                                   : "pictures come again, and a few more are waited for");
+          "The camera tells nothing, the arm holds: %.150s%s", why.data(), why.ends_with('?') ? "" : ".");
       break;
+    }
     case PickerState::led_by_others:
       writer.say("It goes on half a second after the arm is let go in mode shared or automatic.",
                  "The arm is led by hand, or its mode is manual.");

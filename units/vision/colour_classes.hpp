@@ -47,7 +47,7 @@ class ColourClasses {
     return sums[0] + sums[1] + sums[2] < usual_sum * count;
   }
 
-  /// Of `count` pixels that were added up, channel by channel: 4, or 16 where they are dark.
+  /// `sums`: of `count` pixels, channel by channel; `count` is 4, or 16 where the pixels are dark.
   bool is_shadow(const std::array<std::uint32_t, 3>& sums, std::uint32_t count,
                  const WhiteBalance& balance) const noexcept {
     // All by the sum, so that nothing is divided.

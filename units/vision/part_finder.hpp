@@ -86,12 +86,13 @@ class PartFinder {
                                        const FindingLimits& limits,
                                        std::span<const Eigen::Vector2d, 4> place) noexcept;
 
-  /// The last measure() or measure_all() said what each thing is that it saw. What measure() saw but a piece
-  /// of, at the border, does not count; nor does what measure_all() saw beside its place. False also where
-  /// the picture's light is not known.
+  /// The last measure() or measure_all() said of each thing that it saw what it is. A blob of a part's colour
+  /// of at most one and a half times the part's area counts as a piece of a part. Pieces at the border do not
+  /// count in measure(), nor blobs beside the place in measure_all(). False also if the picture's light is
+  /// not known.
   bool is_complete() const noexcept { return is_complete_; }
 
-  /// That the last one of them looked at, and the glance.
+  /// Pixels that the last measure() or measure_all() looked at, with those of the glance.
   std::uint32_t pixels() const noexcept { return pixels_; }
   void forget() noexcept { light_.forget(); }
 

@@ -15,8 +15,8 @@ constexpr double least_of_a_picture = 0.08;  // of what was looked at: what is l
 // A table that became darker than this may be a shadow or an obstacle, unless it is most of the picture.
 constexpr double may_be_a_shadow = 0.85;
 constexpr double most_of_a_picture = 0.5;
-// Of a picture that shows the table: coloured light may make an obstacle as grey as that is.
-constexpr double next_to_nothing = 0.25;
+// Least part of a picture that has to be grey: coloured light may make a few obstacles as grey as the table.
+constexpr double least_grey = 0.25;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ bool TableLight::look(const PictureView& picture, const PixelRectangle& blind,
       for (std::size_t c = 0; c < 3; ++c) level.sums[c] += sums[c];
     }
   }
-  sees_no_grey_ = grey < next_to_nothing * looked;
+  sees_no_grey_ = grey < least_grey * looked;
   const auto least = static_cast<std::uint32_t>(least_of_a_picture * looked) + 1;
   const std::uint32_t table = brightest(least);
   if (table == levels) return false;

@@ -19,9 +19,10 @@ class WatchedPlace {
         room_(Eigen::Vector2d(hand.watch_from_map()), Eigen::Vector2d(hand.watch_to_map())) {}
 
   bool exists() const noexcept { return room_.min() != room_.max(); }
-  /// What hand and part take up: along the tool's x and y from the middle between the fingertips.
+  /// The rectangle that hand and part take up, along the tool's x and y from the middle between the
+  /// fingertips.
   const Eigen::AlignedBox2d& room() const noexcept { return room_; }
-  /// Of such coordinates the point on the table, in the robot's frame.
+  /// The point on the table, in the robot's frame, for coordinates along the tool's x and y.
   Eigen::Vector3d on_table(const Eigen::Vector2d& own) const noexcept {
     const Eigen::Vector2d at = middle_ + own.x() * x() + own.y() * y_;
     return {at.x(), at.y(), 0};

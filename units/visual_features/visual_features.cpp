@@ -32,7 +32,10 @@ Status FeatureExtraction::initialise() {
 
 void FeatureExtraction::step(const Tick& tick) {
   look(tick);
-  condition.publish(PictureCondition{.state = feedback.state});
+  PictureCondition now{};
+  now.state = feedback.state;
+  now.set_trouble(feedback.trouble_view());
+  condition.publish(now);
 }
 
 void FeatureExtraction::look(const Tick& tick) noexcept {
