@@ -11,12 +11,23 @@ namespace {
 // Parts of a vector's limits that its axes have.
 constexpr double along_share = 0.8;
 constexpr double across_share = 0.42426406871192851;  // 0.6 / sqrt(2)
+// A motion that has less of the limits beside another one waits for its end.
+constexpr double too_little = 0.05;
+// While a way is left a goal that changes by more is not that of the new way any more.
+constexpr double another_goal = 0.005;  // m
 // Too short a way to have a direction.
 constexpr double no_way = 1e-9;  // m or rad
 
-MotionLimits part_of(const MotionLimits& limits, std::size_t axis) {
-  const double part = axis == 0 ? along_share : across_share;
+double share_of(std::size_t axis) {
+  return axis == 0 ? along_share : across_share;
+}
+
+MotionLimits part_of(const MotionLimits& limits, double part) {
   return {part * limits.velocity, part * limits.acceleration, part * limits.jerk};
+}
+
+bool rests(const MotionState& axis) {
+  return axis.velocity == 0 && axis.acceleration == 0;
 }
 
 /// A rotation whose first axis points along `way`: the smallest one, as Quaterniond::FromTwoVectors() gives
@@ -34,8 +45,7 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& way) {
 }  // namespace
 
 bool AxesMotion::is_at_rest() const {
-  return std::all_of(axes_.begin(), axes_.end(),
-                     [](const MotionState& axis) { return axis.velocity == 0 && axis.acceleration == 0; });
+  return std::all_of(axes_.begin(), axes_.end(), rests);
 }
 
 Eigen::Vector3d AxesMotion::advance(const Eigen::Vector3d& goal, const MotionLimits& limits, double part,
@@ -47,7 +57,7 @@ Eigen::Vector3d AxesMotion::advance(const Eigen::Vector3d& goal, const MotionLim
   const Eigen::Vector3d seen = frame_.transpose() * goal;
   Eigen::Vector3d way;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    MotionLimits own = part_of(limits, i);
+    MotionLimits own = part_of(limits, share_of(i));
     own.velocity *= part;
     const auto index = static_cast<Eigen::Index>(i);
     MotionState next = towards_position(axes_[i], seen[index], own, time);
@@ -61,7 +71,7 @@ Eigen::Vector3d AxesMotion::advance(const Eigen::Vector3d& goal, const MotionLim
 Eigen::Vector3d AxesMotion::brake(const MotionLimits& limits, double time) {
   Eigen::Vector3d way;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    MotionState next = JerkProfile::stop(axes_[i], part_of(limits, i)).at(time);
+    MotionState next = JerkProfile::stop(axes_[i], part_of(limits, share_of(i))).at(time);
     way[static_cast<Eigen::Index>(i)] = next.position;
     next.position = 0;
     axes_[i] = next;
@@ -72,8 +82,26 @@ Eigen::Vector3d AxesMotion::brake(const MotionLimits& limits, double time) {
 double AxesMotion::braking_time(const MotionLimits& limits) const {
   double longest = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    longest = std::max(longest, JerkProfile::stop(axes_[i], part_of(limits, i)).duration());
+    longest = std::max(longest, JerkProfile::stop(axes_[i], part_of(limits, share_of(i))).duration());
   return longest;
+}
+
+Eigen::Vector3d AxesMotion::way_to_rest(const MotionLimits& limits) const {
+  Eigen::Vector3d way;
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    way[static_cast<Eigen::Index>(i)] = rest_position(axes_[i], part_of(limits, share_of(i)));
+  return frame_ * way;
+}
+
+double AxesMotion::room_beside(const Eigen::Vector3d& other) const {
+  double squares = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    if (!rests(axes_[i])) squares += share_of(i) * share_of(i);
+  // What moves along the first axis alone has its direction; all else may have any.
+  const bool is_straight = rests(axes_[1]) && rests(axes_[2]);
+  const double cosine = is_straight ? std::abs(direction().dot(other)) : 1;
+  const double along = std::sqrt(squares) * cosine;
+  return std::sqrt(std::max(0.0, along * along + 1 - squares)) - along;
 }
 
 void AxesMotion::halt() {
@@ -93,26 +121,72 @@ void PoseMotion::place(const Eigen::Isometry3d& pose) {
   orientation_ = Eigen::Quaterniond(pose.linear()).normalized();
   linear_ = {};
   angular_ = {};
+  left_ = {};
+}
+
+bool PoseMotion::turn_off() {
+  if (!left_.is_at_rest()) return false;
+  left_ = linear_;
+  left_rest_ = left_.way_to_rest(limits_.linear);
+  linear_ = {};
+  beside_.reset();
+  return true;
+}
+
+// `time` s on along the way that it turned off.
+Eigen::Vector3d PoseMotion::leave(double time) {
+  if (left_.is_at_rest()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d way = left_.brake(limits_.linear, time);
+  left_rest_ -= way;
+  if (left_.is_at_rest()) left_rest_.setZero();
+  return way;
+}
+
+// Of the motion along the straight `way`, or the one under way; a velocity of 0: it waits.
+MotionLimits PoseMotion::limits_beside(const Eigen::Vector3d& way) const {
+  if (left_.is_at_rest()) return limits_.linear;
+  const double length = way.norm();
+  if (linear_.is_at_rest() && length <= no_way) return {};
+  const double room =
+      left_.room_beside(linear_.is_at_rest() ? Eigen::Vector3d(way / length) : linear_.direction());
+  return room < too_little ? MotionLimits{} : part_of(limits_.linear, std::min(1.0, room / along_share));
 }
 
 void PoseMotion::advance(const Eigen::Isometry3d& target, double part, double time) {
   const Eigen::Quaterniond wanted(target.linear());
   const Eigen::Vector3d turn = rotation_vector(wanted * orientation_.conjugate());
-  const Eigen::Vector3d way = linear_.advance(target.translation() - position_, limits_.linear, part, time);
+  if (left_.is_at_rest()) {
+    beside_.reset();
+  } else if (!beside_) {
+    beside_ = target.translation();
+  }
+  const Eigen::Vector3d goal = beside_.value_or(target.translation()) - position_ - left_rest_;
+  const bool is_called_off = beside_ && (target.translation() - *beside_).norm() > another_goal;
+  const MotionLimits limits = limits_beside(goal);
+  Eigen::Vector3d way = leave(time);
+  if (limits.velocity > 0)
+    way += is_called_off ? linear_.brake(limits, time) : linear_.advance(goal, limits, part, time);
   move(way, angular_.advance(turn, limits_.angular, part, time));
 }
 
 void PoseMotion::brake(double time) {
-  const Eigen::Vector3d way = linear_.brake(limits_.linear, time);
+  Eigen::Vector3d way = Eigen::Vector3d::Zero();
+  if (!linear_.is_at_rest()) way = linear_.brake(limits_beside(way), time);
+  way += leave(time);
   move(way, angular_.brake(limits_.angular, time));
 }
 
 double PoseMotion::braking_time() const {
-  return std::max(linear_.braking_time(limits_.linear), angular_.braking_time(limits_.angular));
+  double longest = std::max(left_.braking_time(limits_.linear), angular_.braking_time(limits_.angular));
+  if (!linear_.is_at_rest())
+    longest = std::max(longest, linear_.braking_time(limits_beside(Eigen::Vector3d::Zero())));
+  return longest;
 }
 
 void PoseMotion::halt() {
   linear_.halt();
+  left_.halt();
+  left_rest_.setZero();
   angular_.halt();
 }
 

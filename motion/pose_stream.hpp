@@ -4,14 +4,16 @@
 // In each cycle the tool moves on along the fastest way to rest at the latest pose that its limits in
 // Cartesian space allow: of velocity, acceleration and jerk, for its position and its orientation each
 // (pose_motion.hpp says how, and from where the mathematics is). So it never waits for a plan, and where no
-// other pose comes it is at rest at the last one. From rest to a pose that stays the way is straight; led on
-// to another pose while it moves, it bows.
+// other pose comes it is at rest at the last one. From rest to a pose that stays the way is straight. Led on
+// to another pose while it moves, it bows; told that another way begins, it turns off from one straight way
+// into the next, and does not leave them farther than it needs to stop.
 //
 // The joints follow within their ranges and velocities (guarded_motion.hpp): where they could not, the tool
 // is slowed down, or comes to rest before, on its way. Near a singularity joints would have to be too fast,
 // so that it is slow there. What is less than asked for, restraint() tells.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "base/status.hpp"
@@ -29,9 +31,13 @@ class PoseStream {
   // At rest with these joint positions (rad or m, finite, within their limits), and nothing to go to.
   void seed(const JointVector& joints) noexcept;
 
-  // Where the tool shall go, in the base frame, as of `age` s ago. invalid_argument, and the one before
-  // holds, when it is not finite or no pose.
-  Status aim(const Eigen::Isometry3d& target, double age = 0) noexcept;
+  // Where the tool shall go, in the base frame, as of `age` s ago, at no more than `part` (above 0, to 1) of
+  // the limits of velocity. Another `way` than before: it turns off,
+  // from the way that it is on to a straight one there. Asked to turn off once more before it has left the
+  // way before that, it comes to rest until it has, for some tenths of a second at most. invalid_argument,
+  // and the one before holds, when it is not finite or no pose.
+  Status aim(const Eigen::Isometry3d& target, double age = 0, std::uint32_t way = 0,
+             double part = 1) noexcept;
   // Nowhere: it comes to rest.
   void let_go() noexcept { target_.reset(); }
 
@@ -56,6 +62,9 @@ class PoseStream {
  private:
   GuardedMotion<PoseMotion> guarded_;
   std::optional<Eigen::Isometry3d> target_;
+  std::uint32_t way_ = 0;  // on which the target lies
+  bool waits_ = false;     // to turn off into another way
+  double part_ = 1;        // of the limits of velocity
   double max_age_ = 0;
   double age_ = 0;  // s, of the target
 };

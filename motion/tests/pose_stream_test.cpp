@@ -2,9 +2,11 @@
 // differences of what it gives out.
 #include "motion/pose_stream.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include "motion/tests/stream_check.hpp"
 #include "runtime/realtime/realtime_scope.hpp"
@@ -83,10 +85,12 @@ bool random_streams_hold(const StreamLimits& kept, double reach, double turn, un
   for (int n = 0; n < random_streams; ++n) {
     World world(home_position(six_axis), kept);
     int wait = 0;
+    std::uint32_t way = 0;
     for (int k = 0; k < 800; ++k) {
       if (wait-- == 0) {
-        if (!world.stream.aim(beside_home(random_vector(random, reach), random_vector(random, turn))))
-          return false;
+        if (n % 2 == 1 && random() % 2 == 0) ++way;
+        const Isometry3d next = beside_home(random_vector(random, reach), random_vector(random, turn));
+        if (!world.stream.aim(next, 0, way)) return false;
         wait = std::uniform_int_distribution(0, k % 3 == 0 ? 60 : 8)(random);
       }
       AllocationCounter allocations{0};
@@ -100,6 +104,90 @@ bool random_streams_hold(const StreamLimits& kept, double reach, double turn, un
     if (!world.holds()) return false;
   }
   return true;
+}
+
+double distance_to_line(const Vector3d& place, const Vector3d& from, const Vector3d& to) {
+  const Vector3d way = to - from;
+  const double along = std::clamp((place - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+  return (place - from - along * way).norm();
+}
+
+/// As a hand that passes its via points: the next way begins so near the end of the one before.
+bool turns_off_within_the_corner(unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution passes_within(0.005, 0.05);
+  for (int n = 0; n < random_streams; ++n) {
+    World world(home_position(six_axis), n % 2 == 0 ? limits : StreamLimits{{0.9, 4, 40}, {3, 12, 120}});
+    const double near = passes_within(random);
+    std::vector<Vector3d> corners{world.stream.motion().pose().translation()};
+    for (int k = 0; k < 6; ++k) corners.push_back(home_pose().translation() + random_vector(random, 0.12));
+    std::size_t next = 1;
+    double left = 0;
+    double time = 0;
+    for (; time < 30 && !world.stream.has_arrived(); time += cycle) {
+      Isometry3d target = beside_home(Vector3d::Zero(), {0, 0, next % 2 == 0 ? 0.0 : 0.3});
+      target.translation() = corners[next];
+      if (!world.stream.aim(target, 0, static_cast<std::uint32_t>(next))) return false;
+      world.stream.advance(cycle);
+      world.check->look(cycle);
+      const Vector3d place = world.stream.motion().pose().translation();
+      double off = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 1; i <= next; ++i)
+        off = std::min(off, distance_to_line(place, corners[i - 1], corners[i]));
+      left = std::max(left, off);
+      if (next + 1 < corners.size() && (place - corners[next]).norm() < near) ++next;
+    }
+    if (left > near || next + 1 != corners.size() || time >= 30 || !world.holds()) {
+      print_message("left its ways by %.2f mm, passes within %.2f mm\n", 1000 * left, 1000 * near);
+      return false;
+    }
+  }
+  return true;
+}
+
+/// In the triangle of the three, to within a hair.
+bool is_between(const Vector3d& place, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  Eigen::Matrix<double, 3, 2> sides;
+  sides << b - a, c - a;
+  const Eigen::Vector2d parts = (sides.transpose() * sides).ldlt().solve(sides.transpose() * (place - a));
+  return (sides * parts - (place - a)).norm() < 1e-8 && parts.minCoeff() > -1e-6 && parts.sum() < 1 + 1e-6;
+}
+
+/// Called off anywhere, at any speed: between where it was, where it would have come to rest, and the goal.
+bool turns_off_anywhere(unsigned seed) {
+  std::mt19937_64 random(seed);
+  for (int n = 0; n < 10 * random_streams; ++n) {
+    World world;
+    const Isometry3d first = beside_home(random_vector(random, 0.2), Vector3d::Zero());
+    const int cycles = std::uniform_int_distribution(5, 100)(random);
+    for (int k = 0; k < cycles; ++k) {
+      if (!world.stream.aim(first, 0, 1)) return false;
+      world.stream.advance(cycle);
+      world.check->look(cycle);
+    }
+    const Vector3d here = world.stream.motion().pose().translation();
+    PoseStream stops = world.stream;
+    stops.let_go();
+    while (!stops.is_at_rest()) stops.advance(cycle);
+    const Vector3d rest = stops.motion().pose().translation();
+    const Isometry3d goal = beside_home(random_vector(random, 0.2), Vector3d::Zero());
+    for (int k = 0; k < 1000 && !world.stream.has_arrived(); ++k) {
+      if (!world.stream.aim(goal, 0, 2)) return false;
+      world.stream.advance(cycle);
+      world.check->look(cycle);
+      if (!is_between(world.stream.motion().pose().translation(), here, rest, goal.translation()))
+        return false;
+    }
+    if (!world.stream.has_arrived() || !world.holds()) return false;
+  }
+  return true;
+}
+
+void test_turns_off_within_the_corner(void**) {
+  assert_true(turns_off_within_the_corner(3));
+}
+void test_turns_off_anywhere(void**) {
+  assert_true(turns_off_anywhere(4));
 }
 
 // Near home nothing is in the way.
@@ -246,6 +334,8 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(test_random_streams_keep_their_limits),
       cmocka_unit_test(test_random_streams_beyond_the_arms_limits),
+      cmocka_unit_test(test_turns_off_within_the_corner),
+      cmocka_unit_test(test_turns_off_anywhere),
       {"arrives on a straight line", passes<arrives_on_a_straight_line>, nullptr, nullptr, nullptr},
       {"stays where it arrived", passes<stays_where_it_arrived>, nullptr, nullptr, nullptr},
       {"brakes when no more comes", passes<brakes_when_no_more_comes>, nullptr, nullptr, nullptr},

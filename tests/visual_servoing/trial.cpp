@@ -8,6 +8,7 @@
 
 #include "tests/visual_servoing/disturber.hpp"
 #include "tests/visual_servoing/pick_judge.hpp"
+#include "tests/visual_servoing/way_judge.hpp"
 
 int main(int count, char** arguments) {
   using namespace flexrf;
@@ -26,17 +27,24 @@ int main(int count, char** arguments) {
     }
     ServoingCell cell(seed);
     PickJudge judge(cell);
+    WayJudge ways(cell);
     Disturber person(cell, seed);
     judge.verbose = person.verbose = tells;
     std::uint64_t contacts = 0;
     cell.run(duration_of(std::strtod(arguments[2], nullptr)), [&] {
       judge.look();
+      ways.look();
       if (disturbs) person.look();
       if (cell.table().contacts != contacts)
         std::printf("%8.3f  contact, while: %s; the person's last deed: %s\n", cell.elapsed(),
                     cell.message().c_str(), person.deed().c_str());
       contacts = cell.table().contacts;
     });
+    for (const Way& way : ways.ways())
+      if (tells && way.farthest > most_beside_way)
+        std::printf("%8.3f  state %d: a way of %.0f mm, begun at %.2f m/s, is left by %.1f mm\n", way.began,
+                    static_cast<int>(way.state), 1000 * (way.to - way.from).norm(), way.speed,
+                    1000 * way.farthest);
     std::size_t binned = 0;
     for (const Approach& one : judge.approaches()) {
       if (one.binned) ++binned;

@@ -68,6 +68,7 @@ PickerPlan PartPicker::plan() const noexcept {
   plan.travel_height = configuration.travel_height;
   plan.look_height = configuration.look_height;
   plan.straight_height = configuration.straight_height;
+  plan.slanted_speed = configuration.slanted_speed;
   plan.grasp_height = configuration.grasp_height;
   plan.drop_height = configuration.drop_height;
   plan.bin_look_offset = configuration.bin_look_offset;
@@ -143,6 +144,8 @@ void PartPicker::command() noexcept {
   if (const auto& target = machine_.target()) {
     aim.valid = true;
     aim.pose = to_pose(*target);
+    aim.way = machine_.way();
+    aim.speed = machine_.speed();
   }
   servo.publish(aim);
   TargetInHand hand{};

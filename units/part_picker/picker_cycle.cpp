@@ -15,7 +15,34 @@ void PickerMachine::survey() noexcept {
   if (pictures_ < wishes_->survey_pictures) return;
   needs_survey_ = false;
   since_survey_ = 0;
+  if (doubt_) {
+    const bool was_binned = is_in_its_bin();
+    doubt_.reset();
+    if (!was_binned) {
+      ++counters_.lost_parts;
+      return fail(PickerState::part_lost, "its release was interrupted, and it does not lie in its bin");
+    }
+    count_binned();
+  }
   choose(true);
+}
+
+/// As the look at the table shows. Bins may empty themselves: what fell into one, by where the hand was, and
+/// is not seen beside it was taken away.
+bool PickerMachine::is_in_its_bin() const noexcept {
+  const PickerBin& bin = plan_.bins[doubt_->kind];
+  bool lies_in_it = false;
+  bool lies_beside = false;
+  for (const ObjectTrack& track : view_->tracks->tracks) {
+    const Eigen::Vector2d place = track.position_map();
+    if (track.found != VisualClass::target || track.kind != doubt_->kind ||
+        (place - doubt_->place).norm() > picker::falls_within)
+      continue;
+    const bool is_inside = ((place - bin.middle).cwiseAbs().array() < bin.size.array() / 2).all();
+    lies_in_it = lies_in_it || is_inside;
+    lies_beside = lies_beside || !is_inside;
+  }
+  return lies_in_it || (!lies_beside && !doubt_->was_moved);
 }
 
 std::size_t PickerMachine::confirmed_things() const noexcept {
@@ -88,9 +115,8 @@ void PickerMachine::descend() noexcept {
   constexpr std::uint32_t enough = 3;  // pictures; of fewer the last look above the part counts
   if (is_frozen_ && !was_frozen && watched_pictures_ == 0 && pictures_ >= enough)
     return fail(PickerState::blocked, "the camera cannot tell what lies beside the part");
-  // Only from rest the stream's way is a straight line: an arm that was led on from its slanted way swung by
-  // up to 16 mm between obstacles that stood 4 mm beside it.
-  // There a few more pictures are looked at: of an obstacle that came just before they are the last ones.
+  // There the arm rests, and a few more pictures are looked at: of an obstacle that came just before they are
+  // the last ones.
   if (!is_frozen_ || !view_->arm_rests)
     rest_pictures_ = 0;
   else if (view_->tracks_are_new)
@@ -123,10 +149,27 @@ void PickerMachine::close() noexcept {
 /// False: it is not held any more, and that was told.
 bool PickerMachine::keeps_part() noexcept {
   if (view_->gripper.object == GripperObject::gripped || view_->gripper.moving) return true;
-  in_hand_ = false;
-  ++counters_.lost_parts;
-  fail(PickerState::part_lost, "it fell out of the fingers");
+  drop_from_hand();
+  if (doubt_) {
+    enter(PickerState::retreating);
+  } else {
+    fail(PickerState::part_lost, "it fell out of the fingers");
+  }
   return false;
+}
+
+/// It is not between the fingers any more.
+void PickerMachine::drop_from_hand() noexcept {
+  in_hand_ = false;
+  if (!is_release_cut_short_) {
+    ++counters_.lost_parts;
+    return;
+  }
+  is_release_cut_short_ = false;
+  doubt_ = Doubt{.kind = held_.kind,
+                 .place = Eigen::Vector2d(spot_ + held_.position_map() - held_grasp_.middle),
+                 .was_moved = (tip().head<2>() - spot_).norm() > picker::passes_over};
+  needs_survey_ = true;
 }
 
 void PickerMachine::lift() noexcept {
@@ -141,6 +184,7 @@ void PickerMachine::lift() noexcept {
 void PickerMachine::begin_carrying() noexcept {
   // The hand goes there even if something stands in the bin: from there the camera sees when that is gone.
   look_farther_ = 0;
+  is_release_cut_short_ = false;
   find_spot();
   if (begin_way(beside_bin().head<2>())) return enter(PickerState::carrying);
   if (state_ != PickerState::blocked) return fail(PickerState::blocked, paths_.why());
@@ -196,23 +240,38 @@ void PickerMachine::lower() noexcept {
     return fail(PickerState::blocked, "an obstacle stands in the bin");
   if (!go(over_bin(plan_.drop_height), grasp_.angle)) return;
   enter(PickerState::releasing);
-  open(std::min(grasp_.width + 2 * plan_.room.beside_part, plan_.hand.widest));
+  open(release_opening());
+}
+
+double PickerMachine::release_opening() const noexcept {
+  return std::min(grasp_.width + 2 * plan_.room.beside_part, plan_.hand.widest);
 }
 
 void PickerMachine::release() noexcept {
   aim(over_bin(plan_.drop_height), grasp_.angle);
   if (view_->now == entered_) return;
-  if (view_->gripper.opening < grasp_.width + picker::lets_go && view_->gripper.moving) return;
+  const double enough = std::min(grasp_.width + picker::lets_go, release_opening() - picker::opens_within);
+  if (view_->gripper.opening < enough) {
+    if (view_->gripper.moving) return;
+    cause_ = "the fingers rest before they have let go";
+    if (view_->now - entered_ < wishes_->patience) return;
+    entered_ = view_->now;
+    return open(release_opening());
+  }
   in_hand_ = false;
+  count_binned();
+  // Nothing new is begun without sight, or when a person wants it to wait.
+  if (view_->tracks == nullptr) return enter(PickerState::no_sight);
+  if (!wishes_->pick) return enter(PickerState::retreating);
+  choose(false);
+}
+
+void PickerMachine::count_binned() noexcept {
   ++counters_.binned;
   ++since_survey_;
   if (wishes_->survey_after > 0 && since_survey_ >= wishes_->survey_after) needs_survey_ = true;
   if (binned_ != Time{}) counters_.cycle_time = seconds(view_->now - binned_);
   binned_ = view_->now;
-  // Nothing new is begun without sight, or when a person wants it to wait.
-  if (view_->tracks == nullptr) return enter(PickerState::no_sight);
-  if (!wishes_->pick) return enter(PickerState::retreating);
-  choose(false);
 }
 
 void PickerMachine::rise_and_go_on() noexcept {

@@ -30,6 +30,9 @@ void PickerMachine::step(const PickerView& view, const PickerWishes& wishes) noe
   if (!picker::watches(state_) && !waits_at_bin_) watch_for_.reset();
   // Fingers finish what they are at; without sight the arm holds.
   if (view.tracks == nullptr) target_.reset();
+  const bool is_same_way =
+      target_ && led_to_ && (target_->translation() - led_to_->translation()).norm() <= picker::same_way;
+  if (!is_same_way && !picker::gives_up(state_)) ++way_;
   led_to_ = target_;
   view_ = nullptr;
   wishes_ = nullptr;
@@ -71,10 +74,7 @@ void PickerMachine::leave_off() noexcept {
     cause_ = "the fingers find out whether they hold the part";
     return;
   }
-  if (in_hand_ && !fingers_hold()) {
-    in_hand_ = false;
-    ++counters_.lost_parts;
-  }
+  if (in_hand_ && !fingers_hold()) drop_from_hand();
   needs_survey_ = true;
   enter(PickerState::retreating);
 }
@@ -237,6 +237,7 @@ void PickerMachine::enter(PickerState state, const char* cause) noexcept {
   // What closing fingers have between them when others come between is the part.
   if (state_ == PickerState::closing && state != PickerState::lifting && state != PickerState::grasp_failed)
     in_hand_ = true;
+  if (state_ == PickerState::releasing && in_hand_) is_release_cut_short_ = true;
   if (state != PickerState::approaching && !picker::is_on_way_to_part(state) &&
       state != PickerState::closing && !in_hand_ && state != PickerState::lifting)
     track_.identity = 0;

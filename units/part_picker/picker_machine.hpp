@@ -36,6 +36,7 @@ struct PickerPlan {
   double travel_height = 0;    ///< above all that stands on the table
   double look_height = 0;      ///< above the grasp: from there the part is measured last
   double straight_height = 0;  ///< above the grasp: below it goes straight down
+  double slanted_speed = 0;    ///< m/s, from the look to there: what comes into the way is seen in time
   double grasp_height = 0;     ///< above the table
   double drop_height = 0;      ///< above the table, in the bin
   double bin_look_offset = 0;  ///< behind a place in the bin: from there the camera sees it
@@ -101,6 +102,12 @@ class PickerMachine {
 
   /// Where the tool shall go; nothing: the arm shall hold.
   const std::optional<Eigen::Isometry3d>& target() const noexcept { return target_; }
+  /// Number of the straight way on which the target lies.
+  std::uint32_t way() const noexcept { return way_; }
+  /// m/s, no faster; 0: as fast as the arm may.
+  double speed() const noexcept {
+    return state_ == PickerState::descending && !is_straight_ ? plan_.slanted_speed : 0;
+  }
   PickerAct act() const noexcept { return act_; }
   double opening() const noexcept { return opening_; }  ///< m, of PickerAct::open
 
@@ -115,6 +122,8 @@ class PickerMachine {
   const ObjectTrack& part() const noexcept { return track_; }
   const Grasp& grasp() const noexcept { return grasp_; }
   bool holds_part() const noexcept { return in_hand_; }
+  /// The release of a part was interrupted: whether it lies in its bin the next look at the table tells.
+  bool is_in_doubt() const noexcept { return doubt_.has_value(); }
   /// The arm does not move where it is led, and does not say why.
   bool is_stuck() const noexcept { return stuck_on_.has_value(); }
   /// The place that the camera has to show before the hand goes down there; nothing: it goes down nowhere.
@@ -142,6 +151,11 @@ class PickerMachine {
   void clear_counters() noexcept { counters_ = {}; }
 
  private:
+  struct Doubt {
+    std::uint16_t kind = 0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // of the part, if it fell where it was let go
+    bool was_moved = false;                           // meanwhile: it may have fallen elsewhere
+  };
   struct LeftAlone {
     std::uint32_t identity = 0;
     Time until{};
@@ -183,6 +197,10 @@ class PickerMachine {
   void look_from_elsewhere() noexcept;
   void lower() noexcept;
   void release() noexcept;
+  double release_opening() const noexcept;
+  void count_binned() noexcept;
+  void drop_from_hand() noexcept;
+  bool is_in_its_bin() const noexcept;
   void fail(PickerState state, const char* cause) noexcept;
   void push_on() noexcept;
   void rise_and_go_on() noexcept;
@@ -224,6 +242,7 @@ class PickerMachine {
   PickerAct act_ = PickerAct::none;
   double opening_ = 0;
   Time entered_{};
+  std::uint32_t way_ = 0;
   std::optional<Eigen::Isometry3d> led_to_;    // in the step before
   std::optional<Eigen::Isometry3d> stuck_on_;  // the way there: the arm does not move
   Time moved_{};                               // the arm came nearer, or was told something else
@@ -234,6 +253,8 @@ class PickerMachine {
   std::size_t known_ = 0;              // things that were confirmed, in the step before of a survey
   bool in_hand_ = false;
   bool shows_part_ = false;
+  bool is_release_cut_short_ = false;  // the fingers were about to let go when others came between
+  std::optional<Doubt> doubt_;
   ObjectTrack held_{};  // as it lay when the fingers closed
   Grasp held_grasp_{};
   Time let_go_{};                    // until then pictures may show it

@@ -95,7 +95,9 @@ PickerMessage describe(const PickerMachine& machine, const PickerView& view, con
                  "The arm is led by hand, or its mode is manual.");
       break;
     case PickerState::surveying:
-      writer.say("", "Looking at the whole table.");
+      writer.say("", machine.is_in_doubt()
+                         ? "Looking whether the part lies in its bin: its release was interrupted."
+                         : "Looking at the whole table.");
       break;
     case PickerState::waiting:
       writer.say(view.nobody_looks ? "See to the members of attention, and what their evolution says."
@@ -127,7 +129,12 @@ PickerMessage describe(const PickerMachine& machine, const PickerView& view, con
       writer.say("", "Going down into the bin with the %s.", part);
       break;
     case PickerState::releasing:
-      writer.say("", "Letting go of the %s.", part);
+      if (*machine.cause() != '\0') {
+        writer.say("See what holds the fingers; they are opened again and again.",
+                   "Letting go of the %s: %s.", part, machine.cause());
+      } else {
+        writer.say("", "Letting go of the %s.", part);
+      }
       break;
     case PickerState::retreating:
       writer.say("", "Going up to begin anew.");

@@ -11,7 +11,7 @@
 
 namespace flexrf::user::picker {
 
-// Via points are passed within these distances: the arm need not stop there. In m.
+// Via points are passed within these distances: there the arm turns off into the next way. In m.
 inline constexpr double passes_height = 0.02;
 inline constexpr double passes_point = 0.03;
 inline constexpr double passes_over = 0.012;
@@ -23,6 +23,8 @@ inline constexpr double arrives_at_grasp = 0.002;
 inline constexpr double arrives_turned = 0.03;
 // An arm that rests so near to where it should be has arrived as far as it will.
 inline constexpr double rests_near = 0.004;
+// A goal that moves farther than this from one step to the next lies on another straight way; m.
+inline constexpr double same_way = 0.004;
 // A goal that moves farther than this sideways is gone to anew, over all that stands there.
 inline constexpr double follows = 0.012;
 // The arm rests elsewhere for so long: it does not get there.
@@ -47,6 +49,10 @@ inline constexpr double most_look_step = 0.04;
 inline constexpr Duration shown = std::chrono::milliseconds(500);
 // So much wider than the part the fingers have to be to have let it go, in m.
 inline constexpr double lets_go = 0.012;
+// So near the opening that they were told fingers come to rest, in m.
+inline constexpr double opens_within = 0.002;
+// So near the place where it was let go a part comes to lie, in m.
+inline constexpr double falls_within = 0.1;
 // Pictures of before are looked at until then.
 inline constexpr Duration picture_age = std::chrono::milliseconds(150);
 // Time and cost of ways, roughly.
@@ -95,6 +101,14 @@ inline bool is_on_way(PickerState state) {
     default:
       return false;
   }
+}
+
+/// Up, as fast as the arm can: it does not first come to rest on the way that it leaves, which may lead into
+/// what is in the way.
+inline bool gives_up(PickerState state) {
+  return state == PickerState::target_lost || state == PickerState::unreachable ||
+         state == PickerState::blocked || state == PickerState::grasp_failed ||
+         state == PickerState::part_lost;
 }
 
 /// The place into which the hand goes down next is watched.

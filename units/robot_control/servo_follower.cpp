@@ -1,5 +1,7 @@
 #include "units/robot_control/servo_follower.hpp"
 
+#include <algorithm>
+
 #include "motion/pose_conversion.hpp"
 
 namespace flexrf::user {
@@ -29,6 +31,7 @@ void ServoFollower::use(const KinematicChain& chain, const StreamLimits& limits,
   stream_.use(chain, limits, max_age);
   target_.reset();
   left_.reset();
+  fastest_ = limits.linear.velocity;
   max_age_ = max_age;
   reason_ = "";
 }
@@ -49,6 +52,8 @@ void ServoFollower::look(const View<ServoTarget>& said, bool may_move) noexcept 
     reason_ = "the pose stream tells what is no pose: the arm holds";
   } else {
     target_ = pose;
+    way_ = said->way;
+    part_ = said->speed > 0 ? std::min(1.0, said->speed / fastest_) : 1;
     age_ = seconds(said.age());
   }
 }
@@ -56,7 +61,7 @@ void ServoFollower::look(const View<ServoTarget>& said, bool may_move) noexcept 
 void ServoFollower::advance(double elapsed, bool goes_on) noexcept {
   if (goes_on && target_) {
     // look() let only poses through.
-    [[maybe_unused]] const Status taken = stream_.aim(*target_, age_);
+    [[maybe_unused]] const Status taken = stream_.aim(*target_, age_, way_, part_);
   } else {
     stream_.let_go();
   }

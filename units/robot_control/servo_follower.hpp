@@ -33,6 +33,9 @@ class ServoFollower final : public MotionSource {
   PoseStream stream_;
   std::optional<Eigen::Isometry3d> target_;
   std::optional<std::uint64_t> left_;  // the item that was there when nothing could move
+  std::uint32_t way_ = 0;
+  double part_ = 1;     // of the limits of velocity
+  double fastest_ = 0;  // m/s, by those limits
   double age_ = 0;
   double max_age_ = 0;
   const char* reason_ = "";

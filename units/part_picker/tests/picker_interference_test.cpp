@@ -127,6 +127,71 @@ bool a_stop_is_heeded_at_once() {
   });
 }
 
+/// At each instant of the release: the part is counted once, by where it came to lie.
+bool an_interrupted_release_is_resolved_by_looking() {
+  constexpr void (*disturb[])(PickerWorld&, bool) = {
+      [](PickerWorld& world, bool on) { world.may_move = !on; },
+      [](PickerWorld& world, bool on) { world.tells_pose = !on; },
+      [](PickerWorld& world, bool on) { world.stop_requested = on; },
+      [](PickerWorld& world, bool on) { world.is_led = on; },
+  };
+  std::size_t looked = 0;
+  for (const auto between : disturb) {
+    for (double late = 0; late < 0.3; late += seconds(control_cycle)) {
+      PickerWorld world;
+      world.add(0, 0.42, -0.15, 0.4);
+      if (!world.until(releasing, 60) || !world.run(late)) return false;
+      between(world, true);
+      if (!world.run(0.3)) return false;
+      between(world, false);
+      for (int i = 0; i < 1500 && !world.machine.is_in_doubt(); ++i) world.step();
+      if (world.machine.is_in_doubt()) ++looked;
+      if (!world.goes_on(1)) return false;
+      const PickerMachine::Counters& counted = world.machine.counters();
+      if (counted.binned == 1 && counted.lost_parts == 0 && !world.machine.is_in_doubt()) continue;
+      print_message("%.3f s late: binned %zu, lost %zu\n", late, static_cast<std::size_t>(counted.binned),
+                    static_cast<std::size_t>(counted.lost_parts));
+      return false;
+    }
+  }
+  return looked > 20;
+}
+
+/// Led away while the fingers opened: what fell beside the bin is lost, and taken once more.
+bool what_fell_beside_the_bin_is_lost() {
+  PickerWorld world;
+  world.add(0, 0.42, -0.15, 0.4);
+  if (!world.until(releasing)) return false;
+  world.is_led = true;
+  const Eigen::Vector3d aside = (Eigen::Vector3d(0.42, -0.15, world.tip.z()) - world.tip) / 10;
+  for (int i = 0; i < 10; ++i) {
+    world.fingers.halt();
+    world.jog = aside;
+    world.step();
+  }
+  if (world.held == nullptr) return false;
+  world.allow_drop();
+  world.fingers.go({.opening = 0.085});
+  if (!world.run(0.6)) return false;
+  world.is_led = false;
+  for (int i = 0; i < 3000 && world.machine.counters().lost_parts == 0; ++i) world.step();
+  return world.machine.counters().lost_parts == 1 && world.machine.counters().binned == 0 && world.goes_on(1);
+}
+
+/// They rest before they have let go: it says so, and opens them again.
+bool fingers_that_do_not_open_are_told() {
+  PickerWorld world;
+  world.add(0, 0.42, -0.15, 0.4);
+  if (!world.until(releasing)) return false;
+  world.step();
+  for (int i = 0; i < 100; ++i) {
+    world.fingers.halt();
+    world.step();
+  }
+  if (world.machine.state() != releasing || *world.machine.cause() == '\0') return false;
+  return world.machine.counters().binned == 0 && world.goes_on(1);
+}
+
 /// Whoever moved it meanwhile: from there it goes straight up, and looks at the whole table anew.
 bool led_while_it_is_paused() {
   PickerWorld world;
@@ -266,6 +331,10 @@ int main() {
       {"led by a hand", passes<what_a_hand_leads_is_left_to_it>, nullptr, nullptr, nullptr},
       {"switched off", passes<picking_that_is_switched_off_ends_in_order>, nullptr, nullptr, nullptr},
       {"a stop is requested", passes<a_stop_is_heeded_at_once>, nullptr, nullptr, nullptr},
+      {"an interrupted release", passes<an_interrupted_release_is_resolved_by_looking>, nullptr, nullptr,
+       nullptr},
+      {"fallen beside the bin", passes<what_fell_beside_the_bin_is_lost>, nullptr, nullptr, nullptr},
+      {"fingers do not open", passes<fingers_that_do_not_open_are_told>, nullptr, nullptr, nullptr},
       {"led while paused", passes<led_while_it_is_paused>, nullptr, nullptr, nullptr},
       {"unknown in hand", passes<what_it_did_not_take_it_does_not_drop>, nullptr, nullptr, nullptr},
       {"the gripper tripped", passes<a_gripper_that_tripped_is_activated_by_a_person>, nullptr, nullptr,

@@ -169,7 +169,7 @@ bool random_disturbances_are_survived() {
     }
   }
   // It was disturbed indeed.
-  return interrupted > 75 && given_up > 15 && lost > 8 && binned > 150;
+  return interrupted > 75 && given_up > 15 && lost > 3 && binned > 100;
 }
 
 template <bool (*Run)()>

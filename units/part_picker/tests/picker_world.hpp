@@ -1,5 +1,5 @@
-// An arm, fingers and a camera that do at once what they are told, around a PickerMachine; and what has to
-// hold in each of its steps, whatever happens.
+// An arm whose tool is led as the stream of poses leads it, fingers, and a camera that sees all, around a
+// PickerMachine; and what has to hold in each of its steps, whatever happens.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 
 #include "hal/gripper/interface/finger_control.hpp"
 #include "hal/scene/interface/part_catalogue.hpp"
+#include "motion/pose_motion.hpp"
 #include "tests/cmocka.hpp"
 #include "units/part_picker/picker_machine.hpp"
 #include "units/part_picker/picker_messages.hpp"
@@ -25,6 +26,7 @@ inline PickerPlan usual_plan() {
   plan.travel_height = 0.165;
   plan.look_height = 0.10;
   plan.straight_height = 0.035;
+  plan.slanted_speed = 0.08;
   plan.grasp_height = 0.008;
   plan.drop_height = 0.03;
   plan.bin_look_offset = 0.08;
@@ -130,6 +132,8 @@ struct PickerWorld {
     held = nullptr;
     was_taken = true;
   }
+  /// Whoever opens the fingers now may drop what they hold.
+  void allow_drop() { may_drop_ = now + std::chrono::seconds(1); }
   Part* target() {
     for (Part& part : parts)
       if (part.track.identity == machine.track()) return &part;
@@ -159,7 +163,7 @@ struct PickerWorld {
   bool tells_pose = true;
   bool is_led = false;
   bool is_stuck = false;
-  double arm_speed = 0.6;                         // m/s
+  double arm_speed = 0.9;                         // m/s, of the tool's limit
   Eigen::Vector3d jog = Eigen::Vector3d::Zero();  // m in the next step
   int steps_per_picture = 5;
 
@@ -185,16 +189,44 @@ struct PickerWorld {
       anchor_ = tip;
       rests_ = false;
     }
-    if (!may_move || is_led || is_stuck || !aim_) return carry();
-    const Eigen::Vector3d way = *aim_ - tip;
-    const double step = arm_speed * seconds(control_cycle);
-    const Eigen::Vector3d gone = way * std::min(1.0, step / std::max(way.norm(), 1e-12));
-    const double turn = std::clamp(turn_between(angle, aim_angle_), -0.014, 0.014);
-    rests_ = gone.norm() < 1e-9 && std::abs(turn) < 1e-9;
-    tip += gone;
-    motion += gone.norm();
-    angle += turn;
+    if (!may_move || is_led || is_stuck || !aim_) {
+      arm_.place(tool_above(tip, angle, plan.hand.reach));
+      return carry();
+    }
+    arm_.set_limits({{arm_speed, 4.0, 40.0}, {2.0, 12.0, 120.0}});
+    if (way_ == machine.way() || arm_.turn_off()) {
+      way_ = machine.way();
+      const double part = machine.speed() > 0 ? std::min(1.0, machine.speed() / arm_speed) : 1;
+      arm_.advance(*aim_, part, seconds(control_cycle));
+    } else {
+      arm_.brake(seconds(control_cycle));
+    }
+    rests_ = arm_.is_at_rest();
+    const Eigen::Isometry3d pose = arm_.pose();
+    const Eigen::Vector3d before = tip;
+    tip = pose * Eigen::Vector3d(0, 0, plan.hand.reach);
+    motion += (tip - before).norm();
+    angle = angle_of(pose);
     carry();
+    expect_that_it_is_on_its_way();
+  }
+  /// From where the picker named another goal, straight there; what the arm had to do to stop comes on top.
+  void expect_that_it_is_on_its_way() {
+    const Eigen::Vector3d goal = *aim_ * Eigen::Vector3d(0, 0, plan.hand.reach);
+    const Eigen::Vector3d way = goal - way_from_;
+    const double along =
+        std::clamp((tip - way_from_).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+    const double beside = (tip - way_from_ - along * way).norm();
+    expect(beside < stop_distance_ + 0.012, "beside its way");
+  }
+  void begin_way() {
+    way_from_ = tip;
+    PoseMotion stops = arm_;
+    while (!stops.is_at_rest()) stops.brake(seconds(control_cycle));
+    stop_distance_ = (stops.pose() * Eigen::Vector3d(0, 0, plan.hand.reach) - tip).norm();
+  }
+  static double angle_of(const Eigen::Isometry3d& tool) {
+    return std::atan2(tool.linear()(1, 1), tool.linear()(0, 1));
   }
   void carry() {
     if (held == nullptr) return;
@@ -324,8 +356,8 @@ struct PickerWorld {
       // The slanted way, and what an arm that is over its goal may be beside it.
       const double sideways = (goal - anchor_).head<2>().norm();
       expect(sideways < plan.room.slant + 0.025 || tip.z() >= low - 1e-9, "sideways below the travel height");
-      aim_ = goal;
-      aim_angle_ = std::atan2(target->linear()(1, 1), target->linear()(0, 1));
+      if (!aim_ || (target->translation() - aim_->translation()).norm() > 0.004) begin_way();
+      aim_ = target;
     } else {
       aim_.reset();
     }
@@ -339,12 +371,13 @@ struct PickerWorld {
     expect(!stop_requested || machine.act() != PickerAct::open, "opens while a stop is requested");
 
     const auto& counted = machine.counters();
-    const bool under_way = is_before_grasp(state) || machine.holds_part();
+    const bool has_track = is_before_grasp(state) || machine.holds_part();
+    const bool under_way = has_track || machine.is_in_doubt();
     expect(counted.approaches == counted.binned + counted.lost_targets + counted.failed_grasps +
                                      counted.lost_parts + counted.given_up + interrupted +
                                      (under_way ? 1 : 0),
            "the counters do not agree");
-    expect((machine.track() != 0) == under_way, "a track without an approach");
+    expect((machine.track() != 0) == has_track, "a track without an approach");
     const PickerMessage words = describe(machine, view, view.tracks != nullptr ? "" : "too old");
     expect(words.message[0] != '\0', "no words");
   }
@@ -366,8 +399,11 @@ struct PickerWorld {
   std::uint32_t identities_ = 0;
   int steps_ = 0;
   TrackList tracks_{};
-  std::optional<Eigen::Vector3d> aim_;
-  double aim_angle_ = 0;
+  std::optional<Eigen::Isometry3d> aim_;
+  std::uint32_t way_ = 0;  // that the arm is on
+  Eigen::Vector3d way_from_ = Eigen::Vector3d::Zero();
+  double stop_distance_ = 0;  // m, where that began
+  PoseMotion arm_;
   Eigen::Vector3d anchor_ = tip;  // where it was last at the travel height, or was led to
   bool rests_ = true;
   Time may_drop_{};
