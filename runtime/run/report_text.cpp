@@ -4,6 +4,9 @@
 #include "base/quantity_text.hpp"
 #include "base/text_table.hpp"
 #include "runtime/executive/virtual_time.hpp"
+#include "runtime/face/directory.hpp"
+#include "runtime/face/observed_slots.hpp"
+#include "runtime/parameters/value_access.hpp"
 #include "runtime/realtime/response_time.hpp"
 #include "runtime/run/report.hpp"
 #include "runtime/run/report_data.hpp"
@@ -113,6 +116,39 @@ std::string devices_text(const ReportData& data) {
   return "\nDevices\n" + table.text("  ");
 }
 
+bool is_counted(const FieldDescriptor& field) {
+  const bool is_count = field.scalar == Scalar::u64;
+  const bool is_time = field.scalar == Scalar::f64 && field.count == 1 && std::string_view{field.unit} == "s";
+  return (is_count || is_time) && field.count <= 16;
+}
+
+/// Feedback that counts or times something, as it was published last. Members of populations are left out:
+/// the JSON has theirs.
+std::string counts_text(const Cell& cell) {
+  TextTable table({"<component", "<count or time", "value"});
+  const Directory directory(cell);
+  ObservedSlots slots(cell);
+  for (ComponentIndex i = 0; i < directory.component_count(); ++i) {
+    const ComponentEntry& entry = directory.entry(i);
+    std::string name = entry.name;
+    if (entry.feedback_slot == no_index || name.ends_with(']')) continue;
+    const void* const last = slots.read(entry.feedback_slot).last;
+    if (last == nullptr) continue;
+    for (const ParameterDescriptor& parameter : entry.type->feedback.parameters) {
+      if (!is_counted(*parameter.field)) continue;
+      const FieldPlace place = whole(*parameter.field);
+      std::string value = text_of(place, last);
+      if (parameter.field->scalar == Scalar::f64) {
+        const auto time = read_number(place, last);
+        if (time) value = duration_text(duration_of(*time));
+      }
+      table.add({std::move(name), parameter.field->name, std::move(value)});
+      name.clear();
+    }
+  }
+  return table.is_empty() ? std::string{} : "\nCounts and times\n" + table.text("  ");
+}
+
 std::string slots_text(const ReportData& data) {
   TextTable table({"slot", "published", "<writer", "<reader", "read", "missed"});
   std::uint64_t others = 0;
@@ -213,9 +249,9 @@ std::string guard_text(const ReportData& data) {
 
 std::string report_text(const Cell& cell, const RunSummary& summary) {
   const ReportData data(cell, summary);
-  return heading(data) + threads_text(data) + units_text(data) + devices_text(data) + slots_text(data) +
-         queues_text(data) + faults_text(data) + values_text(data) + memory_text(data) + guard_text(data) +
-         "\n" + data.ending + "\n";
+  return heading(data) + threads_text(data) + units_text(data) + devices_text(data) + counts_text(cell) +
+         slots_text(data) + queues_text(data) + faults_text(data) + values_text(data) + memory_text(data) +
+         guard_text(data) + "\n" + data.ending + "\n";
 }
 
 }  // namespace flexrf

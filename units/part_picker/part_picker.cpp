@@ -203,6 +203,10 @@ void PartPicker::tell(const PickerView& view, const View<TrackList>& seen) noexc
   feedback.given_up = counted.given_up;
   feedback.failed_grasps = counted.failed_grasps;
   feedback.lost_parts = counted.lost_parts;
+  feedback.interrupted = counted.interrupted;
+  std::copy(counted.approaches_by_kind.begin(), counted.approaches_by_kind.end(),
+            feedback.approaches_by_kind.begin());
+  std::copy(counted.binned_by_kind.begin(), counted.binned_by_kind.end(), feedback.binned_by_kind.begin());
   feedback.cycle_time = counted.cycle_time;
 }
 

@@ -43,6 +43,7 @@ void PickerMachine::choose(bool has_surveyed) noexcept {
     grasp_ = best_grasp;
     if (begin_way(over_part().head<2>())) {
       ++counters_.approaches;
+      ++counters_.approaches_by_kind[track_.kind];
       needs_opening_ = true;
       return enter(PickerState::approaching);
     }

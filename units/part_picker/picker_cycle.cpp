@@ -17,12 +17,13 @@ void PickerMachine::survey() noexcept {
   since_survey_ = 0;
   if (doubt_) {
     const bool was_binned = is_in_its_bin();
+    const std::size_t kind = doubt_->kind;
     doubt_.reset();
     if (!was_binned) {
       ++counters_.lost_parts;
       return fail(PickerState::part_lost, "its release was interrupted, and it does not lie in its bin");
     }
-    count_binned();
+    count_binned(kind);
   }
   choose(true);
 }
@@ -259,15 +260,16 @@ void PickerMachine::release() noexcept {
     return open(release_opening());
   }
   in_hand_ = false;
-  count_binned();
+  count_binned(held_.kind);
   // Nothing new is begun without sight, or when a person wants it to wait.
   if (view_->tracks == nullptr) return enter(PickerState::no_sight);
   if (!wishes_->pick) return enter(PickerState::retreating);
   choose(false);
 }
 
-void PickerMachine::count_binned() noexcept {
+void PickerMachine::count_binned(std::size_t kind) noexcept {
   ++counters_.binned;
+  ++counters_.binned_by_kind[kind];
   ++since_survey_;
   if (wishes_->survey_after > 0 && since_survey_ >= wishes_->survey_after) needs_survey_ = true;
   if (binned_ != Time{}) counters_.cycle_time = seconds(view_->now - binned_);

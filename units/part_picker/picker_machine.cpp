@@ -238,6 +238,7 @@ void PickerMachine::enter(PickerState state, const char* cause) noexcept {
   if (state_ == PickerState::closing && state != PickerState::lifting && state != PickerState::grasp_failed)
     in_hand_ = true;
   if (state_ == PickerState::releasing && in_hand_) is_release_cut_short_ = true;
+  if (picker::is_on_way_to_part(state_) && picker::interrupts(state)) ++counters_.interrupted;
   if (state != PickerState::approaching && !picker::is_on_way_to_part(state) &&
       state != PickerState::closing && !in_hand_ && state != PickerState::lifting)
     track_.identity = 0;

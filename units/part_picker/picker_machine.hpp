@@ -145,7 +145,10 @@ class PickerMachine {
     std::uint64_t failed_grasps = 0;
     std::uint64_t lost_parts = 0;
     std::uint64_t given_up = 0;  ///< approaches that were not finished, as the way became blocked or too long
-    double cycle_time = 0;       ///< s, from bin to bin
+    std::uint64_t interrupted = 0;  ///< approaches that others came between
+    std::array<std::uint64_t, 4> approaches_by_kind{};
+    std::array<std::uint64_t, 4> binned_by_kind{};
+    double cycle_time = 0;  ///< s, from bin to bin
   };
   const Counters& counters() const noexcept { return counters_; }
   void clear_counters() noexcept { counters_ = {}; }
@@ -198,7 +201,7 @@ class PickerMachine {
   void lower() noexcept;
   void release() noexcept;
   double release_opening() const noexcept;
-  void count_binned() noexcept;
+  void count_binned(std::size_t kind) noexcept;
   void drop_from_hand() noexcept;
   bool is_in_its_bin() const noexcept;
   void fail(PickerState state, const char* cause) noexcept;

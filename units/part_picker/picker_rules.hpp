@@ -103,6 +103,20 @@ inline bool is_on_way(PickerState state) {
   }
 }
 
+/// Others come between.
+inline bool interrupts(PickerState state) {
+  switch (state) {
+    case PickerState::off:
+    case PickerState::paused:
+    case PickerState::no_sight:
+    case PickerState::led_by_others:
+    case PickerState::gripper_trouble:
+      return true;
+    default:
+      return false;
+  }
+}
+
 /// Up, as fast as the arm can: it does not first come to rest on the way that it leaves, which may lead into
 /// what is in the way.
 inline bool gives_up(PickerState state) {

@@ -61,6 +61,8 @@ void an_ordinary_run_tells_all_and_ends_in_a_sentence() {
   CHECK_CONTAINS(report.text, "of virtual time in ");
   CHECK_CONTAINS(report.text, "producing");
   CHECK_CONTAINS(report.text, "consumer.first");
+  CHECK_CONTAINS(report.text, "\nCounts and times\n");
+  CHECK_CONTAINS(report.text, "producer   steps  ");
   CHECK_CONTAINS(report.text, "Faults: none\n");
   CHECK_CONTAINS(report.text, "\nFinished: the virtual time asked for is over after 1");
   CHECK(report.text.ends_with(" ms.\n"));

@@ -112,6 +112,15 @@ describe('the table', () => {
     await expect.poll(() => read('What it does'), { timeout: within }).not.toContain('The camera tells nothing');
   });
 
+  it('tells who only looks on why a switch does nothing', async () => {
+    const other = await Viewer.open(browser(), `${operator.running.base}/#/menu/Table`);
+    const dead = other.page.getByRole('switch', { name: 'Cover the lens' });
+    await dead.click({ force: true });
+    await other.page.getByText('Locked: needs operator').waitFor();
+    expect(await dead.isChecked()).toBe(false);
+    await other.close();
+  });
+
   it('says why a button did nothing', async () => {
     await viewer.go('menu', 'Table');
     const { page } = viewer;

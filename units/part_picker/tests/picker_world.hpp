@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -371,6 +372,12 @@ struct PickerWorld {
     expect(!stop_requested || machine.act() != PickerAct::open, "opens while a stop is requested");
 
     const auto& counted = machine.counters();
+    expect(counted.interrupted == interrupted, "interruptions are not counted");
+    expect(std::accumulate(counted.approaches_by_kind.begin(), counted.approaches_by_kind.end(),
+                           std::uint64_t{0}) == counted.approaches &&
+               std::accumulate(counted.binned_by_kind.begin(), counted.binned_by_kind.end(),
+                               std::uint64_t{0}) == counted.binned,
+           "the counters by kind do not agree");
     const bool has_track = is_before_grasp(state) || machine.holds_part();
     const bool under_way = has_track || machine.is_in_doubt();
     expect(counted.approaches == counted.binned + counted.lost_targets + counted.failed_grasps +

@@ -31,11 +31,22 @@ export class Overview extends ViewBase {
   static override styles = [
     viewStyles,
     css`
-      .cards {
+      .board,
+      .cards,
+      .stack {
         display: grid;
-        grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr));
+        grid-template-columns: minmax(0, 1fr);
         gap: 12px;
         align-items: start;
+      }
+      .cards {
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr));
+      }
+      /* What is always there stands in a column of its own, one below the other; a tall card leaves no hole beside it. */
+      @media (min-width: 60rem) {
+        .board:has(> .stack) {
+          grid-template-columns: minmax(20rem, 1fr) minmax(0, 2fr);
+        }
       }
       section {
         background: var(--surface);
@@ -80,17 +91,20 @@ export class Overview extends ViewBase {
     const { model } = this.core;
     const placed = model.placed(place);
     const nothingPlaced = placed.items.length + placed.placements.length === 0;
+    const values = placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing;
+    const always = html`${this.stateCard()}${values}<section><h3>Configuration file</h3>${this.saver()}</section>`;
+    const cards = html`
+      ${placed.placements.map((placement) => html`
+        <section data-kind=${placement.kind}><h3>${placement.label}</h3>
+          <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
+      ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}`;
     return html`
       <h2>${model.application}</h2>
       <p class="muted">${model.json.summary}</p>
-      <div class="cards">
-        ${this.stateCard()}
-        <section><h3>Configuration file</h3>${this.saver()}</section>
-        ${placed.placements.map((placement) => html`
-          <section data-kind=${placement.kind}><h3>${placement.label}</h3>
-            <flexrf-placement .core=${this.core} .placement=${placement}></flexrf-placement></section>`)}
-        ${placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing}
-        ${nothingPlaced ? this.feedback(chosenFeedback(model)) : nothing}
+      <div class="board">
+        ${placed.placements.length > 0 || nothingPlaced
+          ? html`<div class="stack">${always}</div><div class="cards">${cards}</div>`
+          : html`<div class="cards">${always}</div>`}
         ${this.faults() /* last: it comes and goes, and the header's line tells it, too */}
       </div>
     `;
