@@ -122,6 +122,7 @@ void PoseMotion::place(const Eigen::Isometry3d& pose) {
   linear_ = {};
   angular_ = {};
   left_ = {};
+  left_rest_.setZero();
 }
 
 bool PoseMotion::turn_off() {

@@ -183,6 +183,23 @@ bool turns_off_anywhere(unsigned seed) {
   return true;
 }
 
+/// Stopped from outside while it turns off: nothing of that is left in what begins there.
+bool begins_anew_while_it_turns_off() {
+  World world;
+  world.target = beside_home({0.2, 0, 0}, Vector3d::Zero());
+  world.run(0.5);
+  if (!world.stream.aim(beside_home({0, 0.2, 0}, Vector3d::Zero()), 0, 1)) return false;
+  for (int k = 0; k < 5; ++k) world.stream.advance(cycle);
+  if (world.stream.is_at_rest()) return false;
+  world.stream.seed(world.stream.set_point());
+  const Isometry3d goal = beside_home({0, -0.1, 0}, Vector3d::Zero());
+  for (int k = 0; k < 600 && !world.stream.has_arrived(); ++k) {
+    if (!world.stream.aim(goal, 0, 1)) return false;
+    world.stream.advance(cycle);
+  }
+  return world.stream.has_arrived();
+}
+
 void test_turns_off_within_the_corner(void**) {
   assert_true(turns_off_within_the_corner(3));
 }
@@ -336,6 +353,7 @@ int main() {
       cmocka_unit_test(test_random_streams_beyond_the_arms_limits),
       cmocka_unit_test(test_turns_off_within_the_corner),
       cmocka_unit_test(test_turns_off_anywhere),
+      {"begins anew while it turns off", passes<begins_anew_while_it_turns_off>, nullptr, nullptr, nullptr},
       {"arrives on a straight line", passes<arrives_on_a_straight_line>, nullptr, nullptr, nullptr},
       {"stays where it arrived", passes<stays_where_it_arrived>, nullptr, nullptr, nullptr},
       {"brakes when no more comes", passes<brakes_when_no_more_comes>, nullptr, nullptr, nullptr},
