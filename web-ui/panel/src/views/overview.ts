@@ -47,6 +47,9 @@ export class Overview extends ViewBase {
         .board:has(> .stack) {
           grid-template-columns: minmax(20rem, 1fr) minmax(0, 2fr);
         }
+        .board.even {
+          grid-template-columns: repeat(2, minmax(0, 1fr));
+        }
       }
       section {
         background: var(--surface);
@@ -91,8 +94,10 @@ export class Overview extends ViewBase {
     const { model } = this.core;
     const placed = model.placed(place);
     const nothingPlaced = placed.items.length + placed.placements.length === 0;
+    // Beside one card alone the values would stand before a hole.
+    const isFew = !nothingPlaced && placed.placements.length < 2;
     const values = placed.items.length > 0 ? html`<section><h3>Values</h3>${this.items(placed.items)}</section>` : nothing;
-    const always = html`${this.stateCard()}${values}<section><h3>Configuration file</h3>${this.saver()}</section>`;
+    const file = html`<section><h3>Configuration file</h3>${this.saver()}</section>`;
     const cards = html`
       ${placed.placements.map((placement) => html`
         <section data-kind=${placement.kind}><h3>${placement.label}</h3>
@@ -101,10 +106,10 @@ export class Overview extends ViewBase {
     return html`
       <h2>${model.application}</h2>
       <p class="muted">${model.json.summary}</p>
-      <div class="board">
-        ${placed.placements.length > 0 || nothingPlaced
-          ? html`<div class="stack">${always}</div><div class="cards">${cards}</div>`
-          : html`<div class="cards">${always}</div>`}
+      <div class="board ${isFew ? 'even' : ''}">
+        ${isFew
+          ? html`<div class="stack">${this.stateCard()}${file}${cards}</div><div class="stack">${values}</div>`
+          : html`<div class="stack">${this.stateCard()}${values}${file}</div><div class="cards">${cards}</div>`}
         ${this.faults() /* last: it comes and goes, and the header's line tells it, too */}
       </div>
     `;
