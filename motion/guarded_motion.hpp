@@ -74,10 +74,6 @@ class GuardedMotion {
     stop(elapsed);
   }
 
-  // What comes next begins another way; where the motion under way ends if it stops stays the same. False: it
-  // is not possible yet.
-  bool turn_off() noexcept { return motion_.turn_off(); }
-
   // Comes to rest as fast as the limits allow; what stood in the way of going on stays told until then.
   void brake(double elapsed) noexcept {
     if (motion_.is_at_rest()) return forget();

@@ -11,9 +11,9 @@ namespace {
 // Parts of a vector's limits that its axes have.
 constexpr double along_share = 0.8;
 constexpr double across_share = 0.42426406871192851;  // 0.6 / sqrt(2)
-// A motion that has less of the limits beside another one waits for its end.
+// Part of the limits: with less than that a new motion waits until the other one has ended.
 constexpr double too_little = 0.05;
-// While a way is left a goal that changes by more is not that of the new way any more.
+// A goal that moves by more while a way is being left is another goal.
 constexpr double another_goal = 0.005;  // m
 // Too short a way to have a direction.
 constexpr double no_way = 1e-9;  // m or rad
@@ -97,7 +97,7 @@ double AxesMotion::room_beside(const Eigen::Vector3d& other) const {
   double squares = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
     if (!rests(axes_[i])) squares += share_of(i) * share_of(i);
-  // What moves along the first axis alone has its direction; all else may have any.
+  // A motion along the first axis alone has the direction of that axis; any other may have any direction.
   const bool is_straight = rests(axes_[1]) && rests(axes_[2]);
   const double cosine = is_straight ? std::abs(direction().dot(other)) : 1;
   const double along = std::sqrt(squares) * cosine;
@@ -125,16 +125,14 @@ void PoseMotion::place(const Eigen::Isometry3d& pose) {
   left_rest_.setZero();
 }
 
-bool PoseMotion::turn_off() {
-  if (!left_.is_at_rest()) return false;
+void PoseMotion::turn_off() {
   left_ = linear_;
   left_rest_ = left_.way_to_rest(limits_.linear);
   linear_ = {};
   beside_.reset();
-  return true;
 }
 
-// `time` s on along the way that it turned off.
+// Moves left_ on by `time` s. Returns the way moved, in the base frame.
 Eigen::Vector3d PoseMotion::leave(double time) {
   if (left_.is_at_rest()) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d way = left_.brake(limits_.linear, time);
@@ -143,7 +141,7 @@ Eigen::Vector3d PoseMotion::leave(double time) {
   return way;
 }
 
-// Of the motion along the straight `way`, or the one under way; a velocity of 0: it waits.
+// Limits of linear_, which goes along `way` if it has not begun yet. A velocity of 0: it waits for left_.
 MotionLimits PoseMotion::limits_beside(const Eigen::Vector3d& way) const {
   if (left_.is_at_rest()) return limits_.linear;
   const double length = way.norm();
@@ -153,7 +151,12 @@ MotionLimits PoseMotion::limits_beside(const Eigen::Vector3d& way) const {
   return room < too_little ? MotionLimits{} : part_of(limits_.linear, std::min(1.0, room / along_share));
 }
 
-void PoseMotion::advance(const Eigen::Isometry3d& target, double part, double time) {
+void PoseMotion::advance(const Eigen::Isometry3d& target, std::uint32_t way, double part, double time) {
+  if (way != way_) {
+    if (!left_.is_at_rest()) return brake(time);
+    turn_off();
+    way_ = way;
+  }
   const Eigen::Quaterniond wanted(target.linear());
   const Eigen::Vector3d turn = rotation_vector(wanted * orientation_.conjugate());
   if (left_.is_at_rest()) {
@@ -164,10 +167,10 @@ void PoseMotion::advance(const Eigen::Isometry3d& target, double part, double ti
   const Eigen::Vector3d goal = beside_.value_or(target.translation()) - position_ - left_rest_;
   const bool is_called_off = beside_ && (target.translation() - *beside_).norm() > another_goal;
   const MotionLimits limits = limits_beside(goal);
-  Eigen::Vector3d way = leave(time);
+  Eigen::Vector3d moved = leave(time);
   if (limits.velocity > 0)
-    way += is_called_off ? linear_.brake(limits, time) : linear_.advance(goal, limits, part, time);
-  move(way, angular_.advance(turn, limits_.angular, part, time));
+    moved += is_called_off ? linear_.brake(limits, time) : linear_.advance(goal, limits, part, time);
+  move(moved, angular_.advance(turn, limits_.angular, part, time));
 }
 
 void PoseMotion::brake(double time) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "motion/stream_limits.hpp"
@@ -30,7 +31,7 @@ class AxesMotion {
   // In the base frame, per s and per s^2.
   Eigen::Vector3d velocity() const;
   Eigen::Vector3d acceleration() const;
-  // Of the first axis, in the base frame.
+  // The first axis, a unit vector in the base frame.
   Eigen::Vector3d direction() const { return frame_.col(0); }
   // The part (0 to 1) of the limits that the magnitude of a motion along the unit vector `other` may take
   // beside this one, so that both together keep to them, whatever they do.
@@ -44,23 +45,22 @@ class AxesMotion {
 // Position and orientation, each an AxesMotion. An orientation's way is a turn about one axis where it begins
 // at rest and its goal stays. Plain value; nothing allocates.
 //
-// A position can be led on to another goal in two ways. Where the goal just changes it bows, by as much as
-// the change is far. Where it turns off it comes to rest on the straight way that it is on, and moves from
-// there along the straight way to the new goal meanwhile: it is the sum of both motions, so within the
-// triangle of where it turned off, where it would have come to rest, and the new goal.
+// A motion can be led to another goal in two ways. On the same way the position bows, by at most as much as
+// the goal has moved. If the goal is on another way the motion turns off: it comes to rest on the straight
+// way that it is on, and begins the straight way from there to the new goal at the same time. The position is
+// the sum of both motions. So it stays within the triangle of the place where it turned off, the place where
+// it would have come to rest, and the new goal.
 class PoseMotion {
  public:
   void set_limits(const StreamLimits& limits) { limits_ = limits; }
   // At rest here.
   void place(const Eigen::Isometry3d& pose);
 
-  // What advance() leads to from now on begins another straight way. False, and nothing changed: the way that
-  // it turned off last is still being left.
-  bool turn_off();
-  // Moves on by `time` s towards `target` (finite), at no more than `part` of the limits of velocity. While a
-  // way is being left the new one leads to the first target, or where that is not nearly the same any more,
-  // to rest.
-  void advance(const Eigen::Isometry3d& target, double part, double time);
+  // Moves on by `time` s towards `target` (finite), at no more than `part` of the limits of velocity. Turns
+  // off if `way` is another number than before. While it leaves a way it goes to the first target of the new
+  // one. It brakes instead, until the way is left, if the target has moved far from there or `way` changes
+  // again: a few tenths of a second at most.
+  void advance(const Eigen::Isometry3d& target, std::uint32_t way, double part, double time);
   void brake(double time);
   double braking_time() const;
   // At rest at once, beyond all limits.
@@ -73,6 +73,7 @@ class PoseMotion {
 
  private:
   void move(const Eigen::Vector3d& way, const Eigen::Vector3d& turn);
+  void turn_off();
   Eigen::Vector3d leave(double time);
   MotionLimits limits_beside(const Eigen::Vector3d& way) const;
 
@@ -81,9 +82,10 @@ class PoseMotion {
   Eigen::Quaterniond orientation_ = Eigen::Quaterniond::Identity();
   AxesMotion linear_;
   AxesMotion angular_;
-  AxesMotion left_;                                      // the way that it turned off: it comes to rest
-  Eigen::Vector3d left_rest_ = Eigen::Vector3d::Zero();  // m, from here to there
-  std::optional<Eigen::Vector3d> beside_;                // the new goal meanwhile
+  std::uint32_t way_ = 0;                                // number of the way of linear_
+  AxesMotion left_;                                      // on the way that is being left: it comes to rest
+  Eigen::Vector3d left_rest_ = Eigen::Vector3d::Zero();  // m, from here to where left_ comes to rest
+  std::optional<Eigen::Vector3d> beside_;                // the goal of linear_ while left_ moves
 };
 
 // The rotation as a vector along its axis, as long as its angle (0 to pi rad); and back.

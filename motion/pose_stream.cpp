@@ -15,33 +15,29 @@ void PoseStream::use(const KinematicChain& chain, const StreamLimits& limits, do
   guarded_.use(chain, limits);
   max_age_ = max_age;
   target_.reset();
-  waits_ = false;
 }
 
 void PoseStream::seed(const JointVector& joints) noexcept {
   guarded_.seed(joints);
   target_.reset();
-  waits_ = false;
 }
 
 Status PoseStream::aim(const Eigen::Isometry3d& target, double age, std::uint32_t way, double part) noexcept {
-  if (!is_pose(target) || !std::isfinite(age))
+  if (!is_pose(target) || !std::isfinite(age) || !std::isfinite(part))
     return Status::error(StatusCode::invalid_argument, "the target is not a pose");
+  target_ = target;
   age_ = age;
-  waits_ = way != way_ && !guarded_.turn_off();
-  if (waits_) return {};
   way_ = way;
   part_ = std::clamp(part, slowest, 1.0);
-  target_ = target;
   return {};
 }
 
 void PoseStream::advance(double elapsed) noexcept {
   if (!(elapsed > 0)) return;
   age_ += elapsed;
-  if (is_stale() || waits_) return guarded_.brake(elapsed);
+  if (is_stale()) return guarded_.brake(elapsed);
   guarded_.advance(elapsed, [this](PoseMotion& motion, double part, double time) {
-    motion.advance(*target_, part * part_, time);
+    motion.advance(*target_, way_, part * part_, time);
   });
 }
 

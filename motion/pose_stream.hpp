@@ -32,10 +32,9 @@ class PoseStream {
   void seed(const JointVector& joints) noexcept;
 
   // Where the tool shall go, in the base frame, as of `age` s ago, at no more than `part` (above 0, to 1) of
-  // the limits of velocity. Another `way` than before: it turns off,
-  // from the way that it is on to a straight one there. Asked to turn off once more before it has left the
-  // way before that, it comes to rest until it has, for some tenths of a second at most. invalid_argument,
-  // and the one before holds, when it is not finite or no pose.
+  // the limits of velocity. With another `way` than before the tool turns off, from the straight way that it
+  // is on into another one (pose_motion.hpp). invalid_argument, and the pose before holds, when one of them
+  // is not finite or it is no pose.
   Status aim(const Eigen::Isometry3d& target, double age = 0, std::uint32_t way = 0,
              double part = 1) noexcept;
   // Nowhere: it comes to rest.
@@ -63,7 +62,6 @@ class PoseStream {
   GuardedMotion<PoseMotion> guarded_;
   std::optional<Eigen::Isometry3d> target_;
   std::uint32_t way_ = 0;  // on which the target lies
-  bool waits_ = false;     // to turn off into another way
   double part_ = 1;        // of the limits of velocity
   double max_age_ = 0;
   double age_ = 0;  // s, of the target

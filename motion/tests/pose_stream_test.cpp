@@ -112,7 +112,8 @@ double distance_to_line(const Vector3d& place, const Vector3d& from, const Vecto
   return (place - from - along * way).norm();
 }
 
-/// As a hand that passes its via points: the next way begins so near the end of the one before.
+/// The stream turns off at a random distance before each corner, as a hand passes via points: it leaves the
+/// lines between them by no more than that distance.
 bool turns_off_within_the_corner(unsigned seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution passes_within(0.005, 0.05);
@@ -184,7 +185,7 @@ bool turns_off_anywhere(unsigned seed) {
 }
 
 /// Stopped from outside while it turns off: nothing of that is left in what begins there.
-bool begins_anew_while_it_turns_off() {
+bool is_seeded_while_it_turns_off() {
   World world;
   world.target = beside_home({0.2, 0, 0}, Vector3d::Zero());
   world.run(0.5);
@@ -326,6 +327,7 @@ bool what_is_no_pose_is_refused() {
   bad.translation().z() = 1e9;
   if (world.stream.aim(bad)) return false;
   if (world.stream.aim(*world.target, std::numeric_limits<double>::quiet_NaN())) return false;
+  if (world.stream.aim(*world.target, 0, 0, std::numeric_limits<double>::quiet_NaN())) return false;
   world.run(3);
   return world.stream.has_arrived() && world.holds();
 }
@@ -353,7 +355,7 @@ int main() {
       cmocka_unit_test(test_random_streams_beyond_the_arms_limits),
       cmocka_unit_test(test_turns_off_within_the_corner),
       cmocka_unit_test(test_turns_off_anywhere),
-      {"begins anew while it turns off", passes<begins_anew_while_it_turns_off>, nullptr, nullptr, nullptr},
+      {"seeded while it turns off", passes<is_seeded_while_it_turns_off>, nullptr, nullptr, nullptr},
       {"arrives on a straight line", passes<arrives_on_a_straight_line>, nullptr, nullptr, nullptr},
       {"stays where it arrived", passes<stays_where_it_arrived>, nullptr, nullptr, nullptr},
       {"brakes when no more comes", passes<brakes_when_no_more_comes>, nullptr, nullptr, nullptr},

@@ -133,7 +133,7 @@ struct PickerWorld {
     held = nullptr;
     was_taken = true;
   }
-  /// Whoever opens the fingers now may drop what they hold.
+  /// For a second the fingers may drop the part that they hold.
   void allow_drop() { may_drop_ = now + std::chrono::seconds(1); }
   Part* target() {
     for (Part& part : parts)
@@ -195,13 +195,8 @@ struct PickerWorld {
       return carry();
     }
     arm_.set_limits({{arm_speed, 4.0, 40.0}, {2.0, 12.0, 120.0}});
-    if (way_ == machine.way() || arm_.turn_off()) {
-      way_ = machine.way();
-      const double part = machine.speed() > 0 ? std::min(1.0, machine.speed() / arm_speed) : 1;
-      arm_.advance(*aim_, part, seconds(control_cycle));
-    } else {
-      arm_.brake(seconds(control_cycle));
-    }
+    const double part = machine.speed() > 0 ? std::min(1.0, machine.speed() / arm_speed) : 1;
+    arm_.advance(*aim_, machine.way(), part, seconds(control_cycle));
     rests_ = arm_.is_at_rest();
     const Eigen::Isometry3d pose = arm_.pose();
     const Eigen::Vector3d before = tip;
@@ -211,7 +206,8 @@ struct PickerWorld {
     carry();
     expect_that_it_is_on_its_way();
   }
-  /// From where the picker named another goal, straight there; what the arm had to do to stop comes on top.
+  /// The arm is on the straight line to its goal from where that was named, or beside it by no more than it
+  /// needed to stop there.
   void expect_that_it_is_on_its_way() {
     const Eigen::Vector3d goal = *aim_ * Eigen::Vector3d(0, 0, plan.hand.reach);
     const Eigen::Vector3d way = goal - way_from_;
@@ -407,9 +403,8 @@ struct PickerWorld {
   int steps_ = 0;
   TrackList tracks_{};
   std::optional<Eigen::Isometry3d> aim_;
-  std::uint32_t way_ = 0;  // that the arm is on
-  Eigen::Vector3d way_from_ = Eigen::Vector3d::Zero();
-  double stop_distance_ = 0;  // m, where that began
+  Eigen::Vector3d way_from_ = Eigen::Vector3d::Zero();  // m, where the way to the goal began
+  double stop_distance_ = 0;                            // m, that the arm needed to stop there
   PoseMotion arm_;
   Eigen::Vector3d anchor_ = tip;  // where it was last at the travel height, or was led to
   bool rests_ = true;
