@@ -135,7 +135,7 @@ bool random_disturbances_are_survived() {
   std::uint64_t given_up = 0;
   std::uint64_t lost = 0;
   std::uint64_t binned = 0;
-  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     PickerWorld world;
     world.lay_table();
     world.wishes.rest = std::chrono::seconds(2);
@@ -169,7 +169,7 @@ bool random_disturbances_are_survived() {
     }
   }
   // It was disturbed indeed.
-  return interrupted > 75 && given_up > 15 && lost > 3 && binned > 100;
+  return interrupted > 75 && given_up > 15 && lost > 8 && binned > 150;
 }
 
 template <bool (*Run)()>
