@@ -153,7 +153,8 @@ void an_obstacle_in_the_bin_is_seen_and_remembered() {
   CHECK_EQUAL(cell.picker().lost_parts, 0U);
 }
 
-/// So many ms after the hand left the look; after 550 ms it is above the part.
+/// `after`: ms from the end of the look until the obstacle is put there; the hand is above the part after
+/// 550.
 // [picker-5]
 template <int after>
 void an_obstacle_that_comes_before_the_blind_way_is_avoided() {

@@ -28,8 +28,8 @@ void PickerMachine::survey() noexcept {
   choose(true);
 }
 
-/// As the look at the table shows. Bins may empty themselves: what fell into one, by where the hand was, and
-/// is not seen beside it was taken away.
+/// The part in doubt lies in its bin, as far as the look at the table shows. Bins may empty themselves: a
+/// part that was let go over its bin, and is not seen beside it, was in it.
 bool PickerMachine::is_in_its_bin() const noexcept {
   const PickerBin& bin = plan_.bins[doubt_->kind];
   bool lies_in_it = false;

@@ -33,7 +33,7 @@ inline constexpr Duration stuck = std::chrono::milliseconds(1500);
 inline constexpr Duration hand_pause = std::chrono::milliseconds(500);
 // So many pictures in a row have to tell something before the arm moves by what it sees again.
 inline constexpr std::uint32_t sees_again = 5;
-// So many pictures have to show all of the place into which the hand goes down next.
+// Number of pictures that have to show all of the place into which the hand goes down next.
 inline constexpr std::uint32_t watched_pictures = 2;
 // So many pictures are looked at while the arm rests above the straight way down.
 inline constexpr std::uint32_t rest_pictures = 4;

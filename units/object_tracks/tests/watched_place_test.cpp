@@ -50,7 +50,7 @@ bool a_watched_place_is_posted_while_all_of_it_is_seen() {
   return world->posted.empty();
 }
 
-/// Of another place than the one that is watched now a verdict tells nothing.
+/// A verdict about another place than the one that is watched now tells nothing.
 bool it_counts_when_all_there_was_told() {
   const auto world = std::make_unique<World>();
   world->in_hand.publish(watch_at(0.45, 0), world->bench.now());
