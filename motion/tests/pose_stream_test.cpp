@@ -12,6 +12,7 @@
 #include "runtime/realtime/realtime_scope.hpp"
 #include "six_axis.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/distance_to_line.hpp"
 
 namespace {
 
@@ -104,12 +105,6 @@ bool random_streams_hold(const StreamLimits& kept, double reach, double turn, un
     if (!world.holds()) return false;
   }
   return true;
-}
-
-double distance_to_line(const Vector3d& place, const Vector3d& from, const Vector3d& to) {
-  const Vector3d way = to - from;
-  const double along = std::clamp((place - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
-  return (place - from - along * way).norm();
 }
 
 /// The stream turns off at a random distance before each corner, as a hand passes via points: it leaves the

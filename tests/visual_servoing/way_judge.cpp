@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "motion/pose_conversion.hpp"
+#include "tests/distance_to_line.hpp"
 #include "types/pose.hpp"
 #include "types/servo_target.hpp"
 
@@ -11,14 +12,6 @@ namespace {
 
 // A goal that moves less is the same, as seen by then.
 constexpr double same_goal = 0.004;  // m
-
-double distance_to_line(const Eigen::Vector3d& place, const Eigen::Vector3d& from,
-                        const Eigen::Vector3d& to) {
-  const Eigen::Vector3d way = to - from;
-  const double length = way.squaredNorm();
-  const double along = length > 0 ? std::clamp((place - from).dot(way) / length, 0.0, 1.0) : 0;
-  return (place - from - along * way).norm();
-}
 
 }  // namespace
 

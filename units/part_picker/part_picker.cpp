@@ -122,7 +122,7 @@ PickerView PartPicker::look(const Tick& tick, const View<TrackList>& seen,
     view.gripper.known = true;
     view.gripper.activated = state->activated;
     view.gripper.moving = state->moving;
-    view.gripper.opening = state->opening.value_or(0);
+    view.gripper.opening = state->opening;
     view.gripper.object = state->object;
   }
   return view;

@@ -101,9 +101,8 @@ bool PickerMachine::is_in_reach(const ObjectTrack& track) const noexcept {
 /// It was brought there already, or lies where parts are brought.
 bool PickerMachine::is_in_bin(const ObjectTrack& track) const noexcept {
   const Eigen::Vector2d place = track.position_map();
-  return std::any_of(plan_.bins.begin(), plan_.bins.end(), [&](const PickerBin& bin) {
-    return ((place - bin.middle).cwiseAbs().array() < bin.size.array() / 2).all();
-  });
+  return std::any_of(plan_.bins.begin(), plan_.bins.end(),
+                     [&](const PickerBin& bin) { return bin.contains(place); });
 }
 
 /// In s, roughly.

@@ -39,7 +39,7 @@ bool PickerMachine::is_in_its_bin() const noexcept {
     if (track.found != VisualClass::target || track.kind != doubt_->kind ||
         (place - doubt_->place).norm() > picker::falls_within)
       continue;
-    const bool is_inside = ((place - bin.middle).cwiseAbs().array() < bin.size.array() / 2).all();
+    const bool is_inside = bin.contains(place);
     lies_in_it = lies_in_it || is_inside;
     lies_beside = lies_beside || !is_inside;
   }
@@ -248,11 +248,17 @@ double PickerMachine::release_opening() const noexcept {
   return std::min(grasp_.width + 2 * plan_.room.beside_part, plan_.hand.widest);
 }
 
+/// By the opening; of fingers that do not tell theirs, by that they rest and hold nothing.
+bool PickerMachine::have_let_go() const noexcept {
+  if (!view_->gripper.opening) return !view_->gripper.moving && !fingers_hold();
+  return *view_->gripper.opening >=
+         std::min(grasp_.width + picker::lets_go, release_opening() - picker::opens_within);
+}
+
 void PickerMachine::release() noexcept {
   aim(over_bin(plan_.drop_height), grasp_.angle);
   if (view_->now == entered_) return;
-  const double enough = std::min(grasp_.width + picker::lets_go, release_opening() - picker::opens_within);
-  if (view_->gripper.opening < enough) {
+  if (!have_let_go()) {
     if (view_->gripper.moving) return;
     cause_ = "the fingers rest before they have let go";
     if (view_->now - entered_ < wishes_->patience) return;

@@ -24,6 +24,9 @@ namespace flexrf::user {
 struct PickerBin {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d size = Eigen::Vector2d::Zero();    ///< m, its sides along x and y
+  bool contains(const Eigen::Vector2d& place) const noexcept {
+    return ((place - middle).cwiseAbs().array() < size.array() / 2).all();
+  }
 };
 
 /// Lengths in m, angles in rad.
@@ -75,7 +78,7 @@ struct PickerView {
     bool known = false;
     bool activated = false;
     bool moving = false;
-    double opening = 0;
+    std::optional<double> opening;  ///< m; nothing: it is not known
     GripperObject object = GripperObject::unknown;
     const char* trouble = "";
   } gripper;
@@ -201,6 +204,7 @@ class PickerMachine {
   void lower() noexcept;
   void release() noexcept;
   double release_opening() const noexcept;
+  bool have_let_go() const noexcept;
   void count_binned(std::size_t kind) noexcept;
   void drop_from_hand() noexcept;
   bool is_in_its_bin() const noexcept;

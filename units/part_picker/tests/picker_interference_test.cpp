@@ -178,6 +178,14 @@ bool what_fell_beside_the_bin_is_lost() {
   return world.machine.counters().lost_parts == 1 && world.machine.counters().binned == 0 && world.goes_on(1);
 }
 
+/// A gripper need not measure where its fingers are between its ends.
+bool fingers_that_do_not_tell_their_opening_let_go() {
+  PickerWorld world;
+  world.tells_opening = false;
+  world.lay_table();
+  return world.goes_on(4);
+}
+
 /// They rest before they have let go: it says so, and opens them again.
 bool fingers_that_do_not_open_are_told() {
   PickerWorld world;
@@ -334,6 +342,8 @@ int main() {
       {"an interrupted release", passes<an_interrupted_release_is_resolved_by_looking>, nullptr, nullptr,
        nullptr},
       {"fallen beside the bin", passes<what_fell_beside_the_bin_is_lost>, nullptr, nullptr, nullptr},
+      {"the opening is not told", passes<fingers_that_do_not_tell_their_opening_let_go>, nullptr, nullptr,
+       nullptr},
       {"fingers do not open", passes<fingers_that_do_not_open_are_told>, nullptr, nullptr, nullptr},
       {"led while paused", passes<led_while_it_is_paused>, nullptr, nullptr, nullptr},
       {"unknown in hand", passes<what_it_did_not_take_it_does_not_drop>, nullptr, nullptr, nullptr},

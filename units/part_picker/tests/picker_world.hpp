@@ -12,6 +12,7 @@
 #include "hal/scene/interface/part_catalogue.hpp"
 #include "motion/pose_motion.hpp"
 #include "tests/cmocka.hpp"
+#include "tests/distance_to_line.hpp"
 #include "units/part_picker/picker_machine.hpp"
 #include "units/part_picker/picker_messages.hpp"
 
@@ -162,6 +163,7 @@ struct PickerWorld {
   double sees_from = 0.045;  ///< m beside a place in the bin
   bool can_tell = true;      ///< what stands where the hand goes down next
   bool tells_pose = true;
+  bool tells_opening = true;  ///< as a gripper that measures it
   bool is_led = false;
   bool is_stuck = false;
   double arm_speed = 0.9;                         // m/s, of the tool's limit
@@ -210,11 +212,7 @@ struct PickerWorld {
   /// needed to stop there.
   void expect_that_it_is_on_its_way() {
     const Eigen::Vector3d goal = *aim_ * Eigen::Vector3d(0, 0, plan.hand.reach);
-    const Eigen::Vector3d way = goal - way_from_;
-    const double along =
-        std::clamp((tip - way_from_).dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
-    const double beside = (tip - way_from_ - along * way).norm();
-    expect(beside < stop_distance_ + 0.012, "beside its way");
+    expect(distance_to_line(tip, way_from_, goal) < stop_distance_ + 0.012, "beside its way");
   }
   void begin_way() {
     way_from_ = tip;
@@ -265,7 +263,7 @@ struct PickerWorld {
     part.track.frames = 10;
     const PickerBin& bin = plan.bins[part.track.kind];
     const Eigen::Vector2d place = part.track.position_map();
-    part.is_binned = ((place - bin.middle).cwiseAbs().array() < bin.size.array() / 2).all();
+    part.is_binned = bin.contains(place);
     if (machine.state() == PickerState::releasing) {
       expect(part.is_binned, "not in its bin");
       expect(part.height < 0.05, "let go from high above");
@@ -299,7 +297,7 @@ struct PickerWorld {
     view.gripper.known = fingers.is_heard();
     view.gripper.activated = fingers.known().activated;
     view.gripper.moving = fingers.known().moving;
-    view.gripper.opening = fingers.fingers().opening();
+    if (tells_opening) view.gripper.opening = fingers.fingers().opening();
     view.gripper.object = fingers.known().object;
     view.gripper.trouble = fingers.trouble().cause();
     return view;
