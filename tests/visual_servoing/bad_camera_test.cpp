@@ -155,6 +155,14 @@ void coloured_light() {
       {.tint = {0.5, -0.5, -0.5}, .told = PictureState::colour_cast, .message = "light is coloured"});
 }
 
+// [trouble-15]
+void blurred_pictures() {
+  the_arm_holds_until_pictures_are_good({.fault = CameraFault::blurred,
+                                         .during = PickerState::descending,
+                                         .told = PictureState::blurred,
+                                         .trouble = "the picture is blurred: look at the lens"});
+}
+
 /// Each second one is used.
 // [trouble-7]
 void pictures_out_of_order() {
@@ -206,6 +214,7 @@ int main() {
       TEST_APART(light_that_is_too_dark),
       TEST_APART(light_that_is_too_bright),
       TEST_APART(coloured_light),
+      TEST_APART(blurred_pictures),
       TEST_APART(pictures_out_of_order),
   };
   return cmocka_run_group_tests_name("visual servoing with a bad camera", tests, nullptr, nullptr);

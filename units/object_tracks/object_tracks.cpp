@@ -339,7 +339,10 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
     const ObjectTrack& track = list_.tracks[i];
     if (track.found == VisualClass::nothing) continue;
     const double rested = seconds(Duration{of.time - track.measured_at});
-    if (track.found == VisualClass::obstacle && track.confirmed && rested < runtime.obstacle_rest) continue;
+    // What moves by itself, is missed, or is gone to is measured in each picture.
+    const bool may_rest =
+        track.confirmed && track.misses == 0 && track.identity != watched_.track && !runtime.belt;
+    if (may_rest && rested < runtime.rest) continue;
     VisionRegion region{};
     region.frame = of.frame;
     region.time = of.time;

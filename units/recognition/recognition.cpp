@@ -24,6 +24,8 @@ constexpr double within = 0.9;  // of a piece, to belong to what was measured
 // Pixels of the smallest piece of a part that says something. A glance that may have missed it says nothing
 // of the regions within: theirs is finer.
 constexpr std::uint32_t smallest_piece = 100;
+// What is followed and was measured so long ago at most is as it was: it lies still, or its track missed it.
+constexpr double as_it_was = 0.25;  // s
 // Jobs of pictures that are gone are put away so many at a time, that a step ends.
 constexpr int most_outdated = 64;
 // Of luminance and of opponent colours, 0 to 255: less differs on a bare table by noise, texture and light.
@@ -47,12 +49,16 @@ bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
          seen.top + seen.height >= job.top + job.height;
 }
 
+bool is_near_the_middle(const Eigen::Vector2d& pixel, const VisionRegion& job) {
+  const double across = pixel.x() - (job.left + 0.5 * job.width);
+  const double down = pixel.y() - (job.top + 0.5 * job.height);
+  return std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height);
+}
+
 /// What was measured lies in the middle of the job's region, or nothing was found where it is.
 bool answers(const VisionVerdict& verdict, const VisionRegion& job) {
-  if (verdict.verdict == VisualClass::nothing) return covers(verdict, job);
-  const double across = verdict.pixel[0] - (job.left + 0.5 * job.width);
-  const double down = verdict.pixel[1] - (job.top + 0.5 * job.height);
-  return std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height);
+  return verdict.verdict == VisualClass::nothing ? covers(verdict, job)
+                                                 : is_near_the_middle(verdict.pixel_map(), job);
 }
 
 /// What was measured is what lies in the middle of what a glance saw, or that is a piece of it.
@@ -73,6 +79,32 @@ bool has_usable_size(const CameraFrame& frame) {
          std::uint64_t{frame.stride} * (picture_height - 1) + picture_row_bytes <= frame.data().size();
 }
 
+PixelRectangle within_picture(const Eigen::AlignedBox2d& box) {
+  if (box.isEmpty()) return {};
+  constexpr double far = 4 * picture_width;
+  const Eigen::Vector2d from = box.min().cwiseMax(-far);
+  const Eigen::Vector2d to = box.max().cwiseMin(far);
+  const PixelRectangle whole{static_cast<int>(std::floor(from.x())), static_cast<int>(std::floor(from.y())),
+                             static_cast<int>(std::ceil(to.x()) - std::floor(from.x())),
+                             static_cast<int>(std::ceil(to.y()) - std::floor(from.y()))};
+  return common_part(whole, {0, 0, int{picture_width}, int{picture_height}});
+}
+
+/// What shows an upright cylinder in the picture; empty: the camera stands below its top.
+PixelRectangle shown(const Eigen::Vector2d& middle, double radius, double height, const CameraView& view) {
+  Eigen::AlignedBox2d box;
+  for (const double across : {-radius, radius}) {
+    for (const double down : {-radius, radius}) {
+      for (const double z : {0.0, height}) {
+        Eigen::Vector2d pixel;
+        if (!view.to_picture({middle.x() + across, middle.y() + down, z}, pixel)) return {};
+        box.extend(pixel);
+      }
+    }
+  }
+  return within_picture(box);
+}
+
 /// What shows it in the picture: of a part all corners, below and above; of an obstacle, whose shape nobody
 /// knows, what was seen of it.
 PixelRectangle shown(const Finding& finding, const CameraView& view) {
@@ -89,14 +121,7 @@ PixelRectangle shown(const Finding& finding, const CameraView& view) {
       }
     }
   }
-  if (box.isEmpty()) return {};
-  constexpr double far = 4 * picture_width;
-  const Eigen::Vector2d from = box.min().cwiseMax(-far);
-  const Eigen::Vector2d to = box.max().cwiseMin(far);
-  const PixelRectangle whole{static_cast<int>(std::floor(from.x())), static_cast<int>(std::floor(from.y())),
-                             static_cast<int>(std::ceil(to.x()) - std::floor(from.x())),
-                             static_cast<int>(std::ceil(to.y()) - std::floor(from.y()))};
-  return common_part(whole, {0, 0, int{picture_width}, int{picture_height}});
+  return within_picture(box);
 }
 
 VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding, const PixelRectangle& box) {
@@ -133,8 +158,6 @@ Status Recognition::initialise() {
 /// The count of verdicts goes on: their readers have seen those of before. A job that was held until now is
 /// nobody's any more, and counts as outdated.
 void Recognition::reset() noexcept {
-  finder_.forget();
-  lit_.reset();
   feedback = {};
   if (waiting_) ++feedback.outdated;
   waiting_.reset();
@@ -144,7 +167,6 @@ void Recognition::reset() noexcept {
 void Recognition::step(const Tick& /*tick*/) {
   const auto hand = in_hand.latest();
   blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
-  const std::uint64_t before = list_.count;
   std::uint32_t done = 0;
   for (int outdated = 0; done < runtime.jobs && outdated < most_outdated;) {
     const bool has_waited = waiting_.has_value();
@@ -156,13 +178,14 @@ void Recognition::step(const Tick& /*tick*/) {
       waiting_ = job;
       break;
     }
-    if (answer(*job))
-      ++done;
-    else
+    if (!answer(*job)) {
       ++outdated;
+      continue;
+    }
+    ++done;
+    verdicts.publish(list_);  // at once: the arm may wait for this one
   }
   feedback.done += done;
-  if (list_.count != before) verdicts.publish(list_);
 }
 
 std::optional<VisionRegion> Recognition::next_job() noexcept {
@@ -217,10 +240,7 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   const CameraView view(configuration.camera, tool);
   const PictureView picture{frame->data().data(), frame->stride, static_cast<int>(frame->width),
                             static_cast<int>(frame->height)};
-  if (lit_ != job.frame) {
-    lit_ = job.frame;
-    if (!finder_.look_at_light(picture, blind_)) ++feedback.unlit;
-  }
+  if (const auto of = features.latest()) finder_.set_light({of->white_balance}, of->sees_table);
   Finding expected;
   if (job.track != 0) {
     expected.kind = job.kind;
@@ -229,6 +249,10 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   }
   Glance at = Glance::none(rectangle_of(job));
   if (!is_tracked) {
+    if (Finding followed; find_followed(job, view, followed)) {
+      repeat(job, verdict_of(job, followed, shown(followed, view)));
+      return true;
+    }
     if (const VisionVerdict* const known = glance(picture, job, at); known != nullptr) {
       feedback.pixels += at.pixels;
       repeat(job, *known);
@@ -278,6 +302,35 @@ bool Recognition::find_watched_place(const VisionRegion& job, const CameraView& 
   for (std::size_t i = 0; i < around.size(); ++i)
     if (!view.to_picture(watched.on_table(watched.room().corner(around[i])), corners[i])) return false;
   return true;
+}
+
+/// What is followed, lies in the middle of the job's region and was measured in this picture or just before.
+/// False: there is no such thing.
+bool Recognition::find_followed(const VisionRegion& job, const CameraView& view, Finding& followed) noexcept {
+  const auto list = tracks.latest();
+  if (!list) return false;
+  for (const ObjectTrack& track : list->tracks) {
+    if (track.found == VisualClass::nothing || !track.confirmed || track.misses > 0 ||
+        std::abs(seconds(Duration{job.time - track.measured_at})) > as_it_was)
+      continue;
+    // A part is seen by its top, an obstacle by all of its height.
+    const double height = track.found == VisualClass::target ? track.body_height : track.body_height / 2;
+    const Eigen::Vector2d position = track.position_map();
+    if (!view.to_picture({position.x(), position.y(), height}, followed.pixel) ||
+        !is_near_the_middle(followed.pixel, job))
+      continue;
+    followed.found = track.found;
+    followed.kind = track.kind;
+    followed.pose = {position, track.angle};
+    followed.height = track.body_height;
+    followed.radius = track.radius;
+    followed.residual = track.residual;
+    followed.support = 1;
+    if (track.found == VisualClass::obstacle)
+      followed.box = shown(position, track.radius, track.body_height, view);
+    return true;
+  }
+  return false;
 }
 
 /// The features of its picture say that there is but the table: it differs from itself by as much less as it

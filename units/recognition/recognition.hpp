@@ -22,6 +22,7 @@ class Recognition final : public RecognitionUnit {
   std::optional<VisionRegion> next_job() noexcept;
   const CameraFrame* frame_of(std::uint64_t sequence) noexcept;
   bool is_flat(const VisionRegion& job) noexcept;
+  bool find_followed(const VisionRegion& job, const CameraView& view, Finding& followed) noexcept;
   bool answer(const VisionRegion& job) noexcept;
   bool find_watched_place(const VisionRegion& job, const CameraView& view,
                           std::array<Eigen::Vector2d, 4>& corners) noexcept;
@@ -35,7 +36,6 @@ class Recognition final : public RecognitionUnit {
   PartFinder finder_;
   VisionVerdicts list_{};
   std::optional<VisionRegion> waiting_;  // a job whose picture this step does not see
-  std::optional<std::uint64_t> lit_;     // the picture that the light was taken from
   PixelRectangle blind_;
   LogLimit troubles_;
 };

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "types/visual_features.hpp"
 
@@ -58,6 +59,9 @@ class FeatureExtractor {
   /// frame and time.
   PictureStatistics extract(const std::uint8_t* pixels, std::size_t stride,
                             VisualFeatures& features) noexcept;
+
+  /// Of the last picture: rows of feature_width pixels.
+  std::span<const std::uint8_t> luminance() const noexcept { return planes_[current_]; }
 
  private:
   using Plane = std::array<std::uint8_t, std::size_t{feature_width} * feature_height>;

@@ -46,7 +46,6 @@ PixelRectangle around_cut(const PixelRectangle& box) {
 void PartFinder::prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept {
   parts_ = parts.first(std::min(parts.size(), most_kinds));
   classes_.prepare(parts_, known_table_colour(), darkest_shadow);
-  light_.forget();
 }
 
 Glance PartFinder::glance(const PictureView& picture, const PixelRectangle& rectangle,
@@ -88,7 +87,7 @@ std::span<const Finding> PartFinder::measure(const PictureView& picture, const G
     pixels_ += look(picture, middle, blind);
   }
   const Blob* const central = blob_in_the_middle_of(middle);
-  is_complete_ = is_lit_ && !bitmap_.is_full();
+  is_complete_ = is_light_known_ && !bitmap_.is_full();
   for (const Blob& blob : bitmap_.blobs()) {
     // Of an obstacle at the border nobody knows where its middle is.
     const bool may_be_obstacle = &blob == central || !bitmap_.is_cut(blob, picture);
@@ -104,7 +103,7 @@ std::span<const Finding> PartFinder::measure_all(const PictureView& picture, con
                                                  std::span<const Eigen::Vector2d, 4> place) noexcept {
   count_ = 0;
   pixels_ = look(picture, rectangle, blind);
-  is_complete_ = is_lit_ && !bitmap_.is_full();
+  is_complete_ = is_light_known_ && !bitmap_.is_full();
   for (const Blob& blob : bitmap_.blobs()) {
     const bool is_in_place = meets(blob, place);
     // Of a piece beside the place nobody knows where its middle is, and nobody has to.
@@ -174,7 +173,7 @@ const Blob* PartFinder::blob_in_the_middle_of(const PixelRectangle& rectangle) c
 /// How many pixels that were.
 std::uint32_t PartFinder::look(const PictureView& picture, const PixelRectangle& rectangle,
                                const PixelRectangle& blind, int least_scale) noexcept {
-  bitmap_.take(picture, rectangle, blind, classes_, light_.balance(), least_scale);
+  bitmap_.take(picture, rectangle, blind, classes_, balance_, least_scale);
   return static_cast<std::uint32_t>(bitmap_.columns() * bitmap_.rows());
 }
 

@@ -7,7 +7,7 @@
 
 #include "types/visual_class.hpp"
 #include "units/vision/pose_starts.hpp"
-#include "units/vision/table_light.hpp"
+#include "units/vision/region_bitmap.hpp"
 
 namespace flexrf::user {
 
@@ -61,10 +61,10 @@ class PartFinder {
   /// `darkest_shadow`: see ColourClasses::prepare(). Takes some milliseconds.
   void prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept;
 
-  /// Takes the light from a picture; once for each, before regions of it are looked at. `blind`: where
-  /// nothing is seen. False: its table was not found, and the light is taken as it was.
-  bool look_at_light(const PictureView& picture, const PixelRectangle& blind) noexcept {
-    return is_lit_ = light_.look(picture, blind, classes_);
+  /// The light of the pictures that follow. `is_known`: false where it is that of a picture before.
+  void set_light(const WhiteBalance& balance, bool is_known) noexcept {
+    balance_ = balance;
+    is_light_known_ = is_known;
   }
 
   /// A rectangle is about what lies in its middle: in the answer is that, and what lies beside it.
@@ -94,7 +94,6 @@ class PartFinder {
 
   /// Pixels that the last measure() or measure_all() looked at, with those of the glance.
   std::uint32_t pixels() const noexcept { return pixels_; }
-  void forget() noexcept { light_.forget(); }
 
  private:
   const Blob* blob_in_the_middle_of(const PixelRectangle& rectangle) const noexcept;
@@ -115,14 +114,14 @@ class PartFinder {
 
   std::span<const PartModel> parts_;
   ColourClasses classes_;
-  TableLight light_;
+  WhiteBalance balance_;
   RegionBitmap bitmap_;
   Contour contour_;
   PoseStarts starts_;
   std::array<Finding, most_findings> findings_{};
   std::size_t count_ = 0;
   std::uint32_t pixels_ = 0;
-  bool is_lit_ = false;  // the picture's light is known
+  bool is_light_known_ = false;
   bool is_complete_ = false;
 };
 

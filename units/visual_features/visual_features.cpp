@@ -1,5 +1,8 @@
 #include "units/visual_features/visual_features.hpp"
 
+#include "units/vision/camera_view.hpp"
+#include "units/vision/edge_sharpness.hpp"
+#include "units/vision/hidden_part.hpp"
 #include "units/vision/part_model.hpp"
 
 namespace flexrf::user {
@@ -27,7 +30,7 @@ Status FeatureExtraction::initialise() {
   good_ = 0;
   feedback.state = PictureState::waiting;
   feedback.set_trouble({});
-  return {};
+  return check_camera(configuration.camera);
 }
 
 void FeatureExtraction::step(const Tick& tick) {
@@ -111,6 +114,15 @@ void FeatureExtraction::extract(const CameraFrame& frame, Time sampled_at) noexc
     return;
   }
   if (!is_well_lit(frame)) return;
+  feedback.sharpness = edge_sharpness(extractor_.luminance(), feature_width).value_or(1.0);
+  if (feedback.sharpness < runtime.blurred) {
+    refuse(PictureState::blurred,
+           "the picture is blurred: look at the lens, its focus, and whether something is on it");
+    return;
+  }
+  loan->white_balance = light_.balance().gain;
+  loan->sees_table = without_light_ == 0;
+  if (!loan->sees_table) ++feedback.without_light;
   loan->frame = frame.sequence;
   loan->time = frame.time;
   loan.publish(sampled_at);
@@ -133,7 +145,9 @@ bool FeatureExtraction::is_well_lit(const CameraFrame& frame) noexcept {
   const PictureView picture{frame.data().data(), frame.stride, static_cast<int>(frame.width),
                             static_cast<int>(frame.height)};
   // From near above an obstacle the table is hidden, but not for long.
-  without_light_ = light_.look(picture, {}, classes_) ? 0 : without_light_ + 1;
+  const auto hand = in_hand.latest();
+  const PixelRectangle blind = hidden_part(configuration.camera, hand ? &*hand : nullptr);
+  without_light_ = light_.look(picture, blind, classes_) ? 0 : without_light_ + 1;
   if (!light_.sees_no_grey() && without_light_ < most_without_light) return true;
   refuse(
       PictureState::colour_cast,

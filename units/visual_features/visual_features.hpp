@@ -40,7 +40,7 @@ class FeatureExtraction final : public FeatureExtractionUnit {
   std::uint32_t others_ = 0;
   std::uint32_t good_ = 0;         // in a row
   bool comes_seldom_ = false;      // while it is silent, some pictures came
-  std::array<LogLimit, 11> said_;  // of each state
+  std::array<LogLimit, 12> said_;  // of each state
 };
 
 }  // namespace flexrf::user

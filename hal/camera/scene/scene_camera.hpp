@@ -46,7 +46,8 @@ class SceneCamera : public VirtualCamera<SceneCameraDriver> {
 
   HandEye eye_;
   std::unique_ptr<SceneRenderer> renderer_;
-  std::vector<std::uint8_t> rgb_;  // a picture that is given in another format or size
+  std::vector<std::uint8_t> rgb_;   // a picture that is given in another format or size
+  std::vector<std::uint8_t> line_;  // of a picture that is blurred
   SceneGlance glance_;
   int waited_ = 0;  // cycles
 };

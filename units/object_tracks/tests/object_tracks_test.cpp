@@ -186,6 +186,7 @@ bool an_obstacle_is_gone_only_where_nothing_is_in_doubt() {
 
 bool its_place_in_the_next_picture_is_posted() {
   const auto world = std::make_unique<World>();
+  world->bench.runtime().rest = 0;
   world->follow(6, 0.42, 0.03);
   world->where = tool_above(0.47, 0.02, 0.4);
   world->picture();
@@ -256,6 +257,7 @@ bool a_part_that_is_held_is_not_on_the_table() {
 /// A part in the hand covers the lower half of the picture.
 bool nothing_is_looked_for_behind_what_is_held() {
   const auto world = std::make_unique<World>();
+  world->bench.runtime().rest = 0;
   world->follow(6, 0.42, 0.03);
   world->picture();
   const bool was_posted = world->posted.size() == 1;
@@ -281,14 +283,42 @@ bool nothing_is_looked_for_behind_what_is_held() {
   return world->posted.empty() && world->count() == 1;
 }
 
-bool obstacles_are_left_in_peace_for_a_while() {
+bool what_is_confirmed_is_left_in_peace_for_a_while(std::uint16_t kind) {
   const auto world = std::make_unique<World>();
-  world->follow(6, 0.42, 0.03, no_kind);
+  world->follow(6, 0.42, 0.03, kind);
   world->picture();
-  const bool rests = world->posted.empty();
+  const bool rests = world->posted.empty() && world->first().confirmed;
   for (int i = 0; i < 7; ++i) world->picture();
-  return rests && world->posted.size() == 1 && world->first().found == VisualClass::obstacle &&
-         !world->first().may_be_target;
+  return rests && world->posted.size() == 1;
+}
+
+/// The arm goes by what is known of it.
+bool the_part_that_the_arm_goes_to_is_measured_in_each_picture() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  TargetInHand hand{};
+  hand.track = world->first().identity;
+  world->in_hand.publish(hand, world->bench.now());
+  world->picture();
+  const bool is_measured = world->posted.size() == 1;
+  hand.track = 0;
+  world->in_hand.publish(hand, world->bench.now());
+  world->tell(world->seen(0.42, 0.03));
+  world->picture();
+  return is_measured && world->posted.empty();
+}
+
+bool what_was_missed_is_looked_for_in_each_picture() {
+  const auto world = std::make_unique<World>();
+  world->follow(6, 0.42, 0.03);
+  for (int i = 0; i < 7; ++i) world->picture();
+  if (world->posted.size() != 1) return false;
+  VisionVerdict gone = world->seen(0.42, 0.03);
+  gone.verdict = VisualClass::nothing;
+  gone.region = world->posted.front();
+  world->tell(gone);
+  world->picture();
+  return world->first().misses == 1 && world->posted.size() == 1;
 }
 
 bool without_the_tools_pose_nothing_is_predicted() {
@@ -498,8 +528,16 @@ int main() {
        nullptr, nullptr},
       {"nothing is looked for behind what is held", check<nothing_is_looked_for_behind_what_is_held>, nullptr,
        nullptr, nullptr},
-      {"obstacles are left in peace for a while", check<obstacles_are_left_in_peace_for_a_while>, nullptr,
-       nullptr, nullptr},
+      {"an obstacle that is confirmed is left in peace for a while",
+       [](void**) { assert_true(what_is_confirmed_is_left_in_peace_for_a_while(no_kind)); }, nullptr, nullptr,
+       nullptr},
+      {"a part that is confirmed is left in peace for a while",
+       [](void**) { assert_true(what_is_confirmed_is_left_in_peace_for_a_while(0)); }, nullptr, nullptr,
+       nullptr},
+      {"the part that the arm goes to is measured in each picture",
+       check<the_part_that_the_arm_goes_to_is_measured_in_each_picture>, nullptr, nullptr, nullptr},
+      {"what was missed is looked for in each picture", check<what_was_missed_is_looked_for_in_each_picture>,
+       nullptr, nullptr, nullptr},
       {"without the tools pose nothing is predicted", check<without_the_tools_pose_nothing_is_predicted>,
        nullptr, nullptr, nullptr},
       {"kinds and places are told apart", check<kinds_and_places_are_told_apart>, nullptr, nullptr, nullptr},

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <ctime>
+#include <memory>
 #include <vector>
 
 #include "tests/cmocka.hpp"
 #include "units/recognition/recognition.hpp"
 #include "units/recognition/tests/seen_tables.hpp"
 #include "units/vision/attention_genes.hpp"
+#include "units/vision/tests/light_meter.hpp"
 #include "units/vision/tests/vision_bench.hpp"
 
 namespace flexrf::user {
@@ -23,13 +25,16 @@ inline double processor_time() {
 struct Cell {
   UnitBench<Recognition> bench;
   FrameBench frames;
+  SlotBench<VisualFeatures> features;
   HistoryBench<Pose, 16> tool_poses;
   JobBench tracked;
   JobBench found;
   SlotBench<VisionVerdicts> verdicts;
-  InputBinding inputs[4] = {frames.input(), {}, tool_poses.input(), {}};
+  InputBinding inputs[4] = {frames.input(), features.input(), tool_poses.input(), {}};
   QueueSource* sources[2] = {tracked.source(), found.source()};
   SlotControl* outputs[1] = {&verdicts.control()};
+  LightMeter light;
+  const std::unique_ptr<VisualFeatures> told = std::make_unique<VisualFeatures>();  // the light alone
   std::uint64_t frame = 0;
   std::uint64_t read = 0;
 
@@ -46,6 +51,10 @@ struct Cell {
   void show(const SeenTable& table) {
     bench.step(std::chrono::milliseconds(33));
     frames.draw(table.picture());
+    light.look(table.picture(), {static_cast<int>(table.blind[0]), static_cast<int>(table.blind[1]),
+                                 static_cast<int>(table.blind[2]), static_cast<int>(table.blind[3])});
+    light.tell(*told);
+    features.publish(*told, bench.now());
     tool_poses.publish(table.tool, bench.now());
     frames.publish(++frame, bench.now());
   }

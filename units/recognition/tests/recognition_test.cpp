@@ -24,10 +24,12 @@ struct World {
   SlotBench<VisualFeatures> features;
   HistoryBench<Pose, 16> tool_poses;
   RangeBench<VisionVerdicts, 2> answered;
+  SlotBench<TrackList> tracks;
   JobBench tracked;
   JobBench found;
   SlotBench<VisionVerdicts> verdicts;
-  InputBinding inputs[4] = {frames.input(), features.input(), tool_poses.input(), answered.input()};
+  InputBinding inputs[6] = {frames.input(), features.input(), tool_poses.input(), answered.input(), {},
+                            tracks.input()};
   QueueSource* sources[2] = {tracked.source(), found.source()};
   SlotControl* outputs[1] = {&verdicts.control()};
   DrawnTable table{tool};
@@ -45,6 +47,10 @@ struct World {
     initialised = bench.unit().initialise().is_ok();
     table.put(known_parts()[0], block_pose);
     table.put(known_parts()[1], disc_pose);
+    const auto light = std::make_unique<VisualFeatures>();
+    light->white_balance = {256, 256, 256};
+    light->sees_table = true;
+    features.publish(*light, bench.now());
     frames.draw(table.picture(4));
     give();
   }
@@ -304,6 +310,85 @@ bool what_a_coarse_glance_misses_is_found() {
   return missed && world->count() == 2 && world->last().verdict == VisualClass::obstacle;
 }
 
+/// What a track was measured to be in the last picture: it is told to whoever asks for it.
+TrackList one_followed(const World& world, VisualClass found, std::uint16_t kind, const Eigen::Vector2d& at) {
+  TrackList list{};
+  list.frame = world.frame;
+  list.count = 1;
+  ObjectTrack& track = list.tracks[3];
+  track.identity = 9;
+  track.found = found;
+  track.kind = kind;
+  track.position = {at.x(), at.y()};
+  track.body_height = found == VisualClass::target ? known_parts()[kind].height : 0.09;
+  track.radius = 0.02;
+  track.frames = 20;
+  track.confirmed = true;
+  track.measured_at = nanoseconds(world.bench.now());
+  return list;
+}
+
+/// It is the disc that lies there; that the track calls it a hexagon tells that the picture was not looked
+/// at.
+bool what_is_followed_is_not_measured_for_attention() {
+  const auto world = std::make_unique<World>();
+  const TrackList list = one_followed(*world, VisualClass::target, 2, disc_pose.position);
+  world->give();
+  world->tracks.publish(list, world->bench.now());
+  VisionRegion job = world->job_at(disc_pose.position);
+  job.time = nanoseconds(world->bench.now());
+  world->found.push(job);
+  world->step();
+  const VisionVerdict verdict = world->last();
+  const bool told = verdict.repeated && world->last_is(2, disc_pose) && verdict.region.member == 2 &&
+                    verdict.pixels == 0 && verdict.width > 10 && world->bench.feedback().pixels == 0;
+  // A track's own job is to measure it.
+  VisionRegion tracked = job;
+  tracked.member = no_member;
+  tracked.track = 9;
+  tracked.kind = 2;
+  world->tracked.push(tracked);
+  world->step();
+  return told && !world->last().repeated && world->last_is(1, disc_pose);
+}
+
+bool an_obstacle_that_is_followed_is_not_measured_for_attention() {
+  const auto world = std::make_unique<World>();
+  const TrackList list = one_followed(*world, VisualClass::obstacle, no_kind, disc_pose.position);
+  world->tracks.publish(list, world->bench.now());
+  Eigen::Vector2d pixel(0, 0);
+  world->table.view().to_picture({disc_pose.position.x(), disc_pose.position.y(), 0.045}, pixel);
+  VisionRegion job = world->job_at(disc_pose.position, 0.08);
+  job.left = static_cast<std::uint16_t>(pixel.x() - job.width / 2.0);
+  job.top = static_cast<std::uint16_t>(pixel.y() - job.height / 2.0);
+  job.time = nanoseconds(world->bench.now());
+  world->found.push(job);
+  world->step();
+  const VisionVerdict verdict = world->last();
+  return verdict.repeated && verdict.verdict == VisualClass::obstacle && verdict.radius == 0.02 &&
+         verdict.left < pixel.x() && verdict.left + verdict.width > pixel.x() && verdict.width > 20;
+}
+
+/// One that is not sure, was missed, was measured long ago or lies elsewhere: the picture is looked at.
+bool what_a_track_does_not_know_is_measured() {
+  const auto asks = [](const auto& change) {
+    const auto world = std::make_unique<World>();
+    TrackList list = one_followed(*world, VisualClass::target, 2, disc_pose.position);
+    change(list.tracks[3]);
+    world->tracks.publish(list, world->bench.now());
+    VisionRegion job = world->job_at(disc_pose.position);
+    job.time = nanoseconds(world->bench.now());
+    world->found.push(job);
+    world->step();
+    return world->count() == 1 && !world->last().repeated && world->last_is(1, disc_pose);
+  };
+  return asks([](ObjectTrack& track) { track.confirmed = false; }) &&
+         asks([](ObjectTrack& track) { track.misses = 1; }) &&
+         asks([](ObjectTrack& track) { track.measured_at -= 300'000'000; }) &&
+         asks([](ObjectTrack& track) { track.position[0] -= 0.03; }) &&
+         asks([](ObjectTrack& track) { track.found = VisualClass::nothing; });
+}
+
 /// Of the next picture it is something else.
 bool the_next_picture_is_measured_anew() {
   const auto world = std::make_unique<World>();
@@ -389,6 +474,7 @@ bool what_is_flat_is_not_even_looked_at() {
   const auto of = std::make_unique<VisualFeatures>();
   extractor.extract(world->frames.frame().data().data(), 1920, *of);
   of->frame = world->frame;
+  of->white_balance = {256, 256, 256};
   world->features.publish(*of, world->bench.now());
   world->found.push(world->job_at({0.36, -0.10}));
   world->step();
@@ -437,6 +523,11 @@ void repeated(void**) {
   assert_true(what_a_coarse_glance_misses_is_found());
   assert_true(the_next_picture_is_measured_anew());
 }
+void followed(void**) {
+  assert_true(what_is_followed_is_not_measured_for_attention());
+  assert_true(an_obstacle_that_is_followed_is_not_measured_for_attention());
+  assert_true(what_a_track_does_not_know_is_measured());
+}
 void outdated(void**) {
   assert_true(jobs_of_pictures_that_are_gone_are_put_away());
 }
@@ -457,9 +548,9 @@ void any_job(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(answers),  cmocka_unit_test(tracked_first),
-                              cmocka_unit_test(repeated), cmocka_unit_test(outdated),
-                              cmocka_unit_test(early),    cmocka_unit_test(no_pose),
-                              cmocka_unit_test(flat),     cmocka_unit_test(any_job)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(answers),  cmocka_unit_test(tracked_first), cmocka_unit_test(repeated),
+      cmocka_unit_test(followed), cmocka_unit_test(outdated),      cmocka_unit_test(early),
+      cmocka_unit_test(no_pose),  cmocka_unit_test(flat),          cmocka_unit_test(any_job)};
   return cmocka_run_group_tests_name("recognition", tests, nullptr, nullptr);
 }

@@ -7,6 +7,7 @@
 
 #include "tests/cmocka.hpp"
 #include "units/vision/tests/drawn_table.hpp"
+#include "units/vision/tests/light_meter.hpp"
 
 namespace flexrf::part_finder_test {
 namespace {
@@ -26,7 +27,8 @@ struct World {
   std::span<const Finding> find(const PixelRectangle& rectangle, double noise = 4,
                                 const Finding& expected = {}, const PixelRectangle& blind = {}) {
     const PictureView picture = table.picture(noise);
-    finder.look_at_light(picture, blind);
+    light.look(picture, blind);
+    light.tell(finder);
     Glance at = expected.kind == no_kind ? finder.glance(picture, rectangle, blind) : Glance::none(rectangle);
     if (at.is_cut) at = finder.glance_around(picture, at, blind);
     return finder.measure(picture, at, blind, table.view(), expected, {});
@@ -35,7 +37,8 @@ struct World {
   /// All around a place of so many m, as a hand needs it that is not turned.
   std::span<const Finding> find_all(const Eigen::Vector2d& middle, double size, double noise = 4) {
     const PictureView picture = table.picture(noise);
-    finder.look_at_light(picture, {});
+    light.look(picture);
+    light.tell(finder);
     std::array<Eigen::Vector2d, 4> place;
     const double half = size / 2;
     const std::array<Eigen::Vector2d, 4> corners{
@@ -49,6 +52,7 @@ struct World {
 
   DrawnTable table;
   PartFinder finder;
+  LightMeter light;
 };
 
 double position_error(const Finding& finding, const OutlinePose& pose) {

@@ -22,7 +22,8 @@ struct World {
   SlotBench<VisualFeatures> features;
   SlotBench<PictureCondition> condition;
   SizedItem<CameraFrame> item;
-  InputBinding inputs[1] = {frames.input()};
+  SlotBench<TargetInHand> in_hand;
+  InputBinding inputs[2] = {frames.input(), in_hand.input()};
   SlotControl* outputs[2] = {&features.control(), &condition.control()};
   DrawnTable table;
   CameraFrame& frame = *item;
@@ -261,6 +262,42 @@ void light(void**) {
   assert_true(is_refused_and_told(PictureState::colour_cast, "light is coloured",
                                   [](World& world) { world.light(0.5, 0.5, 1.5); }));
 }
+/// A mean of so many pixels on either side, along rows and columns, three times.
+void blur(CameraFrame& frame, int reach) {
+  const auto along = [&](std::uint8_t* first, int count, int step) {
+    std::vector<int> line(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) line[static_cast<std::size_t>(i)] = first[i * step];
+    for (int i = 0; i < count; ++i) {
+      int sum = 0;
+      for (int k = -reach; k <= reach; ++k)
+        sum += line[static_cast<std::size_t>(std::clamp(i + k, 0, count - 1))];
+      first[i * step] = static_cast<std::uint8_t>(sum / (2 * reach + 1));
+    }
+  };
+  for (int i = 0; i < 3; ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      std::uint8_t* const first = frame.data().data() + channel;
+      for (int row = 0; row < 480; ++row) along(first + 1920 * row, 640, 3);
+      for (int column = 0; column < 640; ++column) along(first + 3 * column, 480, 1920);
+    }
+  }
+}
+
+/// A little blur hurts no measurement; with the parameter at 0 nothing is refused for it.
+void blurred(void**) {
+  assert_true(is_refused_and_told(PictureState::blurred, "look at the lens",
+                                  [](World& world) { blur(world.frame, 4); }));
+  const auto world = std::make_unique<World>();
+  world->give();
+  assert_true(world->bench.feedback().sharpness > 0.9);
+  blur(world->frame, 1);
+  world->give();
+  assert_true(world->used() == 2 && world->bench.feedback().sharpness < 0.99);
+  blur(world->frame, 4);
+  world->bench.runtime().blurred = 0;
+  world->give();
+  assert_true(world->used() == 3 && world->bench.feedback().sharpness < 0.6);
+}
 void condition(void**) {
   const auto world = std::make_unique<World>();
   world->give();
@@ -291,10 +328,10 @@ void comparison(void**) {
 }  // namespace
 
 int main() {
-  const CMUnitTest tests[] = {cmocka_unit_test(good),      cmocka_unit_test(wrong_formats),
-                              cmocka_unit_test(black),     cmocka_unit_test(light),
-                              cmocka_unit_test(condition), cmocka_unit_test(noise),
-                              cmocka_unit_test(frozen),    cmocka_unit_test(order),
-                              cmocka_unit_test(silence),   cmocka_unit_test(comparison)};
+  const CMUnitTest tests[] = {
+      cmocka_unit_test(good),       cmocka_unit_test(wrong_formats), cmocka_unit_test(black),
+      cmocka_unit_test(light),      cmocka_unit_test(condition),     cmocka_unit_test(noise),
+      cmocka_unit_test(frozen),     cmocka_unit_test(order),         cmocka_unit_test(silence),
+      cmocka_unit_test(comparison), cmocka_unit_test(blurred)};
   return cmocka_run_group_tests_name("visual features", tests, nullptr, nullptr);
 }

@@ -216,6 +216,38 @@ bool noise_is_noise() {
          !std::equal(bytes.begin(), bytes.end(), other->data.begin());
 }
 
+/// The block is where it was, and as bright on the whole; the steepest step of its edges is small.
+bool blurred_it_has_no_sharp_edge() {
+  struct Look {
+    double column = 0;
+    double sum = 0;
+    int steepest = 0;
+  };
+  const auto look = [](const CameraImage& image) {
+    Look of;
+    of.column = blue_middle(image)[0];
+    for (std::size_t i = 3; i < image.data.size(); ++i) {
+      of.sum += image.data[i];
+      if (i / 3 % image.width != 0)
+        of.steepest = std::max(of.steepest, std::abs(int{image.data[i]} - int{image.data[i - 3]}));
+    }
+    return of;
+  };
+  Camera camera;
+  const auto sharp_image = camera.next();
+  if (!sharp_image) return false;
+  const Look sharp = look(*sharp_image);
+  camera.give(CameraFault::blurred);
+  const auto blurred_image = camera.next();
+  if (!blurred_image) return false;
+  const Look blurred = look(*blurred_image);
+  camera.give(CameraFault::none);
+  const auto after = camera.next();
+  return blurred.steepest * 3 < sharp.steepest && std::abs(blurred.column - sharp.column) < 2 &&
+         std::abs(blurred.sum / sharp.sum - 1) < 0.01 && after &&
+         look(*after).steepest * 10 > sharp.steepest * 9;
+}
+
 bool the_same_seed_makes_the_same_noise() {
   const auto first_of = [] {
     Camera camera;
@@ -241,6 +273,7 @@ int main() {
       cmocka_unit_test(judged<too_small_for_a_half_it_stays_as_it_is>),
       cmocka_unit_test(judged<noise_is_noise>),
       cmocka_unit_test(judged<the_same_seed_makes_the_same_noise>),
+      cmocka_unit_test(judged<blurred_it_has_no_sharp_edge>),
   };
   return cmocka_run_group_tests_name("faults of the scene's camera", tests, nullptr, nullptr);
 }
