@@ -4,6 +4,7 @@
 
 #include "config-gen/model/limits.hpp"
 #include "config-gen/model/words.hpp"
+#include "config-gen/read/shared_values.hpp"
 
 namespace flexrf::config_gen {
 namespace {
@@ -139,7 +140,9 @@ std::string Library::include_path(const fs::path& file, const std::string& heade
 
 std::optional<Node> Library::parse(const fs::path& file) {
   model_.files.push_back(file);
-  return parse_file(file, diagnostics_);
+  auto table = parse_file(file, diagnostics_);
+  if (table) share_values(*table, diagnostics_);
+  return table;
 }
 
 template <typename Read>

@@ -140,6 +140,24 @@ std::optional<Literal> read_element(const Context& context, const Field& field, 
                       suggest(value.text, names, "values", "the type has none"));
 }
 
+bool is_list_of_records(const Model& model, const Field& field) {
+  return field.shape.size() == 1 && field.type.kind == FieldType::Kind::declared &&
+         model.types[field.type.declared].kind == Type::Kind::record;
+}
+
+// Fewer records than there is room for: the others are zero.
+std::optional<Literal> read_short_list(const Context& context, const Field& field, const Node& value) {
+  Literal literal = zero_literal(context.model, field, value.position);
+  bool good = true;
+  for (std::size_t i = 0; i < value.children.size(); ++i) {
+    auto element = read_element(context, field, value.children[i]);
+    good = good && element.has_value();
+    if (element) literal.elements[i] = std::move(*element);
+  }
+  if (!good) return std::nullopt;
+  return literal;
+}
+
 std::string shape_text(const std::vector<std::size_t>& shape) {
   return shape.size() == 1 ? std::to_string(shape[0]) + " values"
                            : std::to_string(shape[0]) + " rows of " + std::to_string(shape[1]) + " values";
@@ -185,6 +203,8 @@ std::optional<Literal> read_literal(const Model& model, const Field& field, cons
   const std::string hint =
       "the shape asks for " + shape_text(field.shape) + "; a single value without [] fills them all";
   const std::size_t rows = field.shape[0];
+  if (is_list_of_records(model, field) && value.children.size() < rows)
+    return read_short_list(context, field, value);
   if (value.children.size() != rows)
     return context.fail(value, "has " + std::to_string(value.children.size()) + " entries", hint);
   const std::size_t columns = field.shape.size() == 2 ? field.shape[1] : 1;

@@ -13,7 +13,8 @@ namespace flexrf::config_gen {
 
 // The value as the field's type, shape and capacity demand; nothing when it is not, which is reported with
 // `what`
-// ("the default of 'step'"). One value where an array is asked for fills the whole array.
+// ("the default of 'step'"). One value where an array is asked for fills the whole array; a list of fewer
+// records than an array of records holds leaves zeros for the others.
 std::optional<Literal> read_literal(const Model& model, const Field& field, const Node& value,
                                     const std::string& what, Diagnostics& diagnostics);
 

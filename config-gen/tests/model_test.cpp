@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -124,6 +125,24 @@ void populations_make_arrays(void**) {
   assert_string_equal(model.slots[fusion.inputs[0].slots[3]].name.c_str(), "tracks[3]");
   const std::size_t jobs = index_of(model.threads, "jobs");
   assert_int_equal(named(model.slots, "tracks[2]").doorbells[0], jobs);
+}
+
+// By a row that names a row that names another one; a list may be shorter than its array.
+void a_value_that_rows_share_stands_once(void**) {
+  const Model& model = cell("given-once").model;
+  assert_string_equal(cell("given-once").messages.c_str(), "");
+  const Position& written = named(model.units, "third").configuration[0].position;
+  for (const char* const name : {"first", "second", "third"}) {
+    const Literal& boxes = named(model.units, name).configuration[0];
+    assert_true(boxes.position == written);
+    assert_int_equal(boxes.elements.size(), 4);
+    const std::array<std::int64_t, 4> numbers{7, 8, 0, 0};
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      assert_int_equal(std::get<std::int64_t>(boxes.elements[i].elements[1].value), numbers[i]);
+    assert_true(std::get<double>(boxes.elements[0].elements[0].elements[1].value) == 0.1);
+  }
+  assert_int_equal(std::get<std::int64_t>(named(model.units, "first").configuration[1].value), 3);
+  assert_int_equal(std::get<std::int64_t>(named(model.units, "third").configuration[1].value), 5);
 }
 
 void copies_are_queues_of_their_own(void**) {
@@ -316,6 +335,7 @@ int main() {
                               cmocka_unit_test(layouts_are_those_of_the_compiler),
                               cmocka_unit_test(readers_are_threads_and_holds),
                               cmocka_unit_test(populations_make_arrays),
+                              cmocka_unit_test(a_value_that_rows_share_stands_once),
                               cmocka_unit_test(copies_are_queues_of_their_own),
                               cmocka_unit_test(children_come_before_buses),
                               cmocka_unit_test(memory_adds_up),
