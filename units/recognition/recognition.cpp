@@ -168,6 +168,11 @@ void Recognition::step(const Tick& /*tick*/) {
   const auto hand = in_hand.latest();
   blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
   std::uint32_t done = 0;
+  std::uint64_t told = list_.count;
+  const auto tell = [&] {
+    if (list_.count != told) verdicts.publish(list_);
+    told = list_.count;
+  };
   for (int outdated = 0; done < runtime.jobs && outdated < most_outdated;) {
     const bool has_waited = waiting_.has_value();
     const std::optional<VisionRegion> job = next_job();
@@ -183,8 +188,10 @@ void Recognition::step(const Tick& /*tick*/) {
       continue;
     }
     ++done;
-    verdicts.publish(list_);  // at once: the arm may wait for this one
+    // At once: the arm may wait for it. Attention's can wait for each other.
+    if (job->member == no_member) tell();
   }
+  tell();
   feedback.done += done;
 }
 
