@@ -105,7 +105,7 @@ int run(int argument_count, char** arguments) {
     for (const auto& member : attention) member->look();
   };
   const auto finder = std::make_unique<PartFinder>();
-  finder->prepare(known_parts(), 0.4);
+  finder->prepare(known_parts(), known_table_colour(), 0.4);
   LightMeter light;
   light.look(picture);
   light.tell(*finder);

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "units/vision/tests/known_parts.hpp"
+
 namespace flexrf::bench {
 
 FrozenArm::FrozenArm(SharedView& view, std::span<const user::Genes> members) : population_(view, {}) {
@@ -27,6 +29,8 @@ ChangingArm::ChangingArm(SharedView& view, std::span<const user::Genes> members,
   binding.outputs = outputs;
   recogniser_.unit().connect(binding);
   recogniser_.unit().set_name("recognition");
+  static_cast<user::RecognitionConfiguration*>(recogniser_.unit().parameter_memory().configuration)
+      ->catalogue = user::catalogue_of_tests();
   if (recogniser_.unit().initialise().is_ok()) return;
   std::fprintf(stderr, "evolution: recognition was not initialised\n");
   std::exit(1);

@@ -43,6 +43,9 @@ void SharedView::next(Time now) {
   const std::uint8_t buffer = slot.loan();
   auto& features = *reinterpret_cast<user::VisualFeatures*>(slot.payload(buffer));
   extractor_.extract(frame.data().data(), frame.stride, features);
+  constexpr user::PixelRectangle hand{0, 450, 640, 30};
+  light_.look({frame.data().data(), frame.stride, user::picture_width, user::picture_height}, hand);
+  light_.tell(features);
   features.frame = picture_;
   features.time = nanoseconds(now);
   slot.publish(buffer, now);

@@ -8,6 +8,7 @@
 #include "benchmarks/evolution/scripted_view.hpp"
 #include "units/attention/attention.hpp"
 #include "units/vision/evolution.hpp"
+#include "units/vision/tests/light_meter.hpp"
 #include "units/vision/tests/vision_bench.hpp"
 
 namespace flexrf::bench {
@@ -29,6 +30,7 @@ class SharedView {
  private:
   ScriptedView view_;
   user::FeatureExtractor extractor_;
+  user::LightMeter light_;
   Slot<user::VisualFeatures, 2> features_;
   SlotReader attention_{&features_.control()};
   SlotReader recognition_{&features_.control()};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal/scene/interface/part_catalogue.hpp"
+#include "units/vision/tests/known_parts.hpp"
 
 namespace flexrf::bench {
 namespace {
@@ -90,7 +91,8 @@ void UnreachableJudge::judge() {
     const double distance = std::hypot(part.position[0] - plan.base[0], part.position[1] - plan.base[1]);
     if (distance < plan.reach[0] || distance > plan.reach[1]) continue;
     const char* blocked_by = nullptr;
-    if (!user::free_grasp(part, truth, plan.hand_angle, hand, room, blocked_by)) continue;
+    if (!user::free_grasp(user::parts_of_tests(), part, truth, plan.hand_angle, hand, room, blocked_by))
+      continue;
     counted_[i] = true;
     wrong_.push_back({cell_.elapsed(), part.kind, cell_.message()});
   }

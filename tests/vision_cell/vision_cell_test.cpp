@@ -13,7 +13,7 @@
 #include "tests/applications/process.hpp"
 #include "tests/applications/running.hpp"
 #include "tests/vision_cell/cell/units/eye/eye.hpp"
-#include "units/vision/part_model.hpp"
+#include "units/vision/tests/known_parts.hpp"
 #include "visual_features_unit.hpp"
 
 namespace flexrf::application {

@@ -21,16 +21,6 @@ constexpr double least_seen = 0.6;           // part of a predicted region that 
 constexpr double around_watched = 0.015;     // m of the table that are looked at around a watched place
 constexpr double watched_score = 2;          // before what is measured in each picture
 
-double height_of(std::uint16_t kind) {
-  const auto parts = known_parts();
-  return kind < parts.size() ? parts[kind].height : 0.0;
-}
-
-int symmetry_of(std::uint16_t kind) {
-  const auto parts = known_parts();
-  return kind < parts.size() ? parts[kind].symmetry : 0;
-}
-
 bool is_piece(const VisionVerdict& verdict) {
   return verdict.verdict == VisualClass::obstacle && verdict.support < all_of_an_outline;
 }
@@ -48,7 +38,18 @@ Status ObjectTracks::initialise() {
     return Status::error(StatusCode::invalid_argument,
                          "%s: there are at most %zu recognisers; give the population a smaller capacity",
                          name(), most_recognisers);
+  if (const Status status = parts_.take(configuration.catalogue); !status) return status;
   return check_camera(configuration.camera);
+}
+
+double ObjectTracks::height_of(std::uint16_t kind) const noexcept {
+  const PartModel* const part = parts_.find(kind);
+  return part != nullptr ? part->height : 0.0;
+}
+
+int ObjectTracks::symmetry_of(std::uint16_t kind) const noexcept {
+  const PartModel* const part = parts_.find(kind);
+  return part != nullptr ? part->symmetry : 0;
 }
 
 void ObjectTracks::step(const Tick& tick) {

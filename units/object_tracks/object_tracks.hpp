@@ -29,6 +29,8 @@ class ObjectTracks final : public ObjectTracksUnit {
     bool is_whole = false;       // an obstacle that some picture showed wholly
   };
 
+  double height_of(std::uint16_t kind) const noexcept;  // m; 0: it is no known part
+  int symmetry_of(std::uint16_t kind) const noexcept;
   void watch(const TargetInHand* hand) noexcept;
   void take_watch(const VisionVerdict& verdict) noexcept;
   void read_verdicts() noexcept;
@@ -53,6 +55,7 @@ class ObjectTracks final : public ObjectTracksUnit {
   FilterNoise noise() const noexcept;
   FilterNoise noise_of(const VisionVerdict& verdict) const noexcept;
 
+  KnownParts parts_;
   TrackList list_{};
   std::array<Beside, most_tracks> beside_{};
   std::array<std::uint64_t, most_recognisers> read_{};  // verdicts of each recogniser

@@ -6,61 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "units/vision/part_model.hpp"
-
 namespace flexrf::user {
 namespace {
 
 using Eigen::Vector2d;
-
-/// In the part's frame.
-struct KnownGrasp {
-  double x;
-  double y;
-  double angle;  // of the closing direction, rad
-  double width;  // m
-};
-
-constexpr double degrees(double value) {
-  return value * std::numbers::pi / 180;
-}
-
-// Flat faces that are opposite each other. Of the bracket the fingers take one arm of the L, or reach over
-// all of it where both sides are flat.
-constexpr std::array<KnownGrasp, 4> block_grasps{{{0, 0, degrees(90), 0.030},
-                                                  {0.012, 0, degrees(90), 0.030},
-                                                  {-0.012, 0, degrees(90), 0.030},
-                                                  {0, 0, 0, 0.050}}};
-constexpr std::array<KnownGrasp, 12> disc_grasps = [] {
-  std::array<KnownGrasp, 12> grasps{};
-  double angle = 0;
-  for (KnownGrasp& grasp : grasps) {
-    grasp = {0, 0, angle, 0.040};
-    angle += degrees(15);
-  }
-  return grasps;
-}();
-constexpr std::array<KnownGrasp, 3> hexagon_grasps{
-    {{0, 0, degrees(90), 0.036}, {0, 0, degrees(30), 0.036}, {0, 0, degrees(150), 0.036}}};
-constexpr std::array<KnownGrasp, 4> bracket_grasps{{{0.0125, -0.0061, degrees(90), 0.018},
-                                                    {-0.0111, 0.0175, 0, 0.018},
-                                                    {-0.0111, 0.0049, degrees(90), 0.040},
-                                                    {0.0049, -0.0061, 0, 0.050}}};
-
-std::span<const KnownGrasp> known_grasps(std::uint16_t kind) {
-  switch (kind) {
-    case 0:
-      return block_grasps;
-    case 1:
-      return disc_grasps;
-    case 2:
-      return hexagon_grasps;
-    case 3:
-      return bracket_grasps;
-    default:
-      return {};
-  }
-}
 
 Vector2d along(double angle) {
   return {std::cos(angle), std::sin(angle)};
@@ -141,9 +90,8 @@ std::array<HandRectangle, 2> fingers_of(double opening, const HandShape& hand) {
   return {{{{-x, inner}, {x, outer}}, {{-x, -outer}, {x, -inner}}}};
 }
 
-bool fingers_meet_part(const Grasp& grasp, const ObjectTrack& other, const HandShape& hand,
-                       const HandRoom& room) {
-  const PartModel& model = known_parts()[other.kind];
+bool fingers_meet_part(const Grasp& grasp, const ObjectTrack& other, const PartModel& model,
+                       const HandShape& hand, const HandRoom& room) {
   const HandFrame into_hand{grasp};
   const Eigen::Rotation2Dd turn(other.angle);
   std::array<Vector2d, most_corners> corners;
@@ -181,12 +129,14 @@ double turn_between(double from, double to) noexcept {
   return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-std::size_t grasps_of(std::uint16_t kind) noexcept {
-  return known_grasps(kind).size();
+std::span<const PartGrasp> grasps_of(const KnownParts& parts, std::uint16_t kind) noexcept {
+  const PartModel* const part = parts.find(kind);
+  return part != nullptr ? part->all_grasps() : std::span<const PartGrasp>{};
 }
 
-Grasp grasp_of(const ObjectTrack& track, std::size_t number, double preferred) noexcept {
-  const KnownGrasp& known = known_grasps(track.kind)[number];
+Grasp grasp_of(const KnownParts& parts, const ObjectTrack& track, std::size_t number,
+               double preferred) noexcept {
+  const PartGrasp& known = grasps_of(parts, track.kind)[number];
   Grasp grasp;
   grasp.middle =
       Vector2d(track.position_map()) + Eigen::Rotation2Dd(track.angle) * Vector2d(known.x, known.y);
@@ -198,8 +148,8 @@ Grasp grasp_of(const ObjectTrack& track, std::size_t number, double preferred) n
   return grasp;
 }
 
-const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList& all, const HandShape& hand,
-                        const HandRoom& room) noexcept {
+const char* what_blocks(const KnownParts& parts, Grasp& grasp, const ObjectTrack& track, const TrackList& all,
+                        const HandShape& hand, const HandRoom& room) noexcept {
   const double widest = std::min(grasp.width + 2 * room.beside_part, hand.widest);
   const double least = grasp.width + 2 * room.least_beside;
   if (least > widest) return "it is wider than the fingers open";
@@ -212,7 +162,8 @@ const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList&
       if (other.identity == track.identity || !counts(other, room)) continue;
       if (other.found == VisualClass::obstacle) {
         if (hand_meets_obstacle(grasp, other, hand, room)) reason = in_way_of_hand;
-      } else if (other.kind < known_parts().size() && fingers_meet_part(grasp, other, hand, room)) {
+      } else if (const PartModel* const model = parts.find(other.kind);
+                 model != nullptr && fingers_meet_part(grasp, other, *model, hand, room)) {
         reason = "another part is in the way of the fingers";
       }
       if (reason != nullptr) break;
@@ -230,20 +181,20 @@ bool meets_obstacle(const Grasp& grasp, const TrackList& all, const HandShape& h
   });
 }
 
-std::optional<Grasp> free_grasp(const ObjectTrack& track, const TrackList& all, double preferred,
-                                const HandShape& hand, const HandRoom& room,
+std::optional<Grasp> free_grasp(const KnownParts& parts, const ObjectTrack& track, const TrackList& all,
+                                double preferred, const HandShape& hand, const HandRoom& room,
                                 const char*& blocked_by) noexcept {
   std::optional<Grasp> best;
   double least = std::numeric_limits<double>::infinity();
-  if (grasps_of(track.kind) == 0) blocked_by = "no way to take such a part is known";
-  const std::size_t ways = grasps_of(track.kind);
+  const std::size_t ways = grasps_of(parts, track.kind).size();
+  if (ways == 0) blocked_by = "no way to take such a part is known";
   for (std::size_t n = 0; n < 2 * ways; ++n) {
     const std::size_t i = n % ways;
-    Grasp grasp = grasp_of(track, i, preferred);
+    Grasp grasp = grasp_of(parts, track, i, preferred);
     // The other way round the fingers come from the other side.
     if (n >= ways) grasp.angle += grasp.angle > preferred ? -std::numbers::pi : std::numbers::pi;
     if (std::abs(grasp.angle - preferred) > farthest_turn) continue;
-    if (const char* const reason = what_blocks(grasp, track, all, hand, room); reason != nullptr) {
+    if (const char* const reason = what_blocks(parts, grasp, track, all, hand, room); reason != nullptr) {
       blocked_by = reason;
       continue;
     }

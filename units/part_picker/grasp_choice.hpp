@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "types/object_track.hpp"
 #include "types/track_list.hpp"
+#include "units/vision/part_model.hpp"
 
 namespace flexrf::user {
 
@@ -44,17 +46,18 @@ struct Grasp {
 /// The turn from one direction to another, within half a turn, in rad.
 double turn_between(double from, double to) noexcept;
 
-/// Ways to take a part of a kind; 0 for a kind that is not known.
-std::size_t grasps_of(std::uint16_t kind) noexcept;
+/// Ways to take a part of a kind; none for a kind that is not known.
+std::span<const PartGrasp> grasps_of(const KnownParts& parts, std::uint16_t kind) noexcept;
 
 /// The n-th way to take the part where the track says that it is. Of the two hands that are half a turn apart
 /// the one whose closing direction is nearer to `preferred` (rad).
-Grasp grasp_of(const ObjectTrack& track, std::size_t number, double preferred) noexcept;
+Grasp grasp_of(const KnownParts& parts, const ObjectTrack& track, std::size_t number,
+               double preferred) noexcept;
 
 /// What keeps the hand from it; nullptr: nothing, and `grasp.opening` is as wide as there is room for. The
 /// words live for ever.
-const char* what_blocks(Grasp& grasp, const ObjectTrack& track, const TrackList& all, const HandShape& hand,
-                        const HandRoom& room) noexcept;
+const char* what_blocks(const KnownParts& parts, Grasp& grasp, const ObjectTrack& track, const TrackList& all,
+                        const HandShape& hand, const HandRoom& room) noexcept;
 
 /// Some obstacle stands in the way of the hand at this grasp.
 bool meets_obstacle(const Grasp& grasp, const TrackList& all, const HandShape& hand,
@@ -64,8 +67,8 @@ inline constexpr const char* in_way_of_hand = "an obstacle is in the way of the 
 /// The free way to take it that turns the hand least, away from `preferred`, and by less than half a turn;
 /// nothing, and `blocked_by` told,
 /// where none is free.
-std::optional<Grasp> free_grasp(const ObjectTrack& track, const TrackList& all, double preferred,
-                                const HandShape& hand, const HandRoom& room,
+std::optional<Grasp> free_grasp(const KnownParts& parts, const ObjectTrack& track, const TrackList& all,
+                                double preferred, const HandShape& hand, const HandRoom& room,
                                 const char*& blocked_by) noexcept;
 
 /// The pose of the tool that has the point between its fingertips there, pointing straight down.

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "hal/gripper/interface/gripper.hpp"
-#include "hal/scene/interface/part_catalogue.hpp"
 #include "motion/pose_conversion.hpp"
 #include "units/part_picker/picker_messages.hpp"
 #include "units/vision/part_model.hpp"
@@ -43,6 +42,7 @@ Status PartPicker::initialise() {
     return Status::error(StatusCode::invalid_argument,
                          "reach: the least distance, %g m, has to be below the greatest, %g m",
                          configuration.reach[0], configuration.reach[1]);
+  if (const Status status = parts_.take(configuration.catalogue); !status) return status;
   machine_.begin(plan());
   if (machine_.is_look_out_kept_out())
     return Status::error(
@@ -75,9 +75,11 @@ PickerPlan PartPicker::plan() const noexcept {
   plan.base = configuration.base_map();
   plan.nearest = configuration.reach[0];
   plan.farthest = configuration.reach[1];
-  for (std::size_t i = 0; i < plan.bins.size(); ++i)
-    plan.bins[i] = {{part_bins[i].middle.x, part_bins[i].middle.y},
-                    {part_bins[i].size.x, part_bins[i].size.y}};
+  plan.parts = &parts_;
+  const auto parts = parts_.all();
+  std::transform(parts.begin(), parts.end(), plan.bins.begin(), [](const PartModel& part) {
+    return PickerBin{part.bin.middle_map(), part.bin.size_map()};
+  });
   plan.keep_outs = configuration.keep_out;
   return plan;
 }

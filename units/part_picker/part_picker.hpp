@@ -19,6 +19,7 @@ class PartPicker final : public PartPickerUnit {
   void command() noexcept;
   void tell(const PickerView& view, const View<TrackList>& seen) noexcept;
 
+  KnownParts parts_;
   PickerMachine machine_;
   std::optional<std::uint64_t> frame_;  // of the last list of tracks
   std::int64_t led_by_picture_ = 0;     // time of the last picture that moved the arm, ns

@@ -20,7 +20,8 @@ const ObjectTrack* PickerMachine::find_part(const HandRoom& room, Grasp& best_gr
       out_of_reach = true;
       continue;
     }
-    const auto grasp = free_grasp(track, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked_by);
+    const auto grasp =
+        free_grasp(*plan_.parts, track, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked_by);
     if (!grasp) continue;
     const double cost = cost_of(*grasp);
     if (cost >= least) continue;
@@ -78,7 +79,8 @@ HandRoom PickerMachine::ample_room() const noexcept {
 
 bool PickerMachine::is_candidate(const ObjectTrack& track) const noexcept {
   return track.identity != 0 && track.found == VisualClass::target && track.may_be_target &&
-         track.kind < plan_.bins.size() && !is_left_alone(track.identity) && !is_in_bin(track);
+         track.kind < plan_.bins.size() && plan_.bins[track.kind].exists() &&
+         !is_left_alone(track.identity) && !is_in_bin(track);
 }
 
 bool PickerMachine::is_left_alone(std::uint32_t identity) const noexcept {
@@ -123,9 +125,9 @@ bool PickerMachine::follow_track() noexcept {
   if (found == tracks.end()) return false;
   const double before = track_.angle;
   track_ = *found;
-  track_.angle = picker::nearest_angle(found->angle, before, known_parts()[track_.kind].symmetry);
+  track_.angle = picker::nearest_angle(found->angle, before, plan_.parts->all()[track_.kind].symmetry);
   const double opening = grasp_.opening;
-  grasp_ = grasp_of(track_, grasp_.number, grasp_.angle);
+  grasp_ = grasp_of(*plan_.parts, track_, grasp_.number, grasp_.angle);
   grasp_.opening = opening;
   return true;
 }
@@ -141,9 +143,10 @@ const char* PickerMachine::what_blocks_now() noexcept {
     room.slant = 0;
     return meets_obstacle(grasp, *view_->tracks, plan_.hand, room) ? in_way_of_hand : nullptr;
   }
-  const char* blocked = what_blocks(grasp, track_, *view_->tracks, plan_.hand, room);
+  const char* blocked = what_blocks(*plan_.parts, grasp, track_, *view_->tracks, plan_.hand, room);
   if (blocked != nullptr && state_ != PickerState::descending) {
-    if (const auto other = free_grasp(track_, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked)) {
+    if (const auto other =
+            free_grasp(*plan_.parts, track_, *view_->tracks, plan_.hand_angle, plan_.hand, room, blocked)) {
       blocked = nullptr;
       grasp = *other;
     }
@@ -163,7 +166,7 @@ const char* PickerMachine::what_blocks_now() noexcept {
 /// A place in the bin beside which nothing stands. False: there is none, and `spot_` is the bin's middle.
 bool PickerMachine::find_spot() noexcept {
   const PickerBin& bin = plan_.bins[track_.kind];
-  const double part = known_parts()[track_.kind].radius;
+  const double part = plan_.parts->all()[track_.kind].radius;
   const Eigen::Vector2d room = (bin.size / 2 - Eigen::Vector2d::Constant(part + 0.005)).cwiseMax(0);
   constexpr std::array<double, 3> places{0, 1, -1};
   for (const double x : places) {

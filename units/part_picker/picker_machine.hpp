@@ -24,6 +24,7 @@ namespace flexrf::user {
 struct PickerBin {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< m
   Eigen::Vector2d size = Eigen::Vector2d::Zero();    ///< m, its sides along x and y
+  bool exists() const noexcept { return size.x() > 0; }
   bool contains(const Eigen::Vector2d& place) const noexcept {
     return ((place - middle).cwiseAbs().array() < size.array() / 2).all();
   }
@@ -46,7 +47,8 @@ struct PickerPlan {
   Eigen::Vector2d base = Eigen::Vector2d::Zero();  ///< the arm's first axis
   double nearest = 0;                              ///< from there it reaches
   double farthest = 0;
-  std::array<PickerBin, 4> bins{};  ///< by kind
+  const KnownParts* parts = nullptr;         ///< never null; as long as the machine is used
+  std::array<PickerBin, most_kinds> bins{};  ///< by kind; of no size: such parts are left where they are
   std::span<const KeepOut> keep_outs;
 };
 
@@ -123,6 +125,8 @@ class PickerMachine {
   std::uint32_t track() const noexcept { return track_.identity; }
   /// The part that it goes to or holds, as seen last.
   const ObjectTrack& part() const noexcept { return track_; }
+  /// After begin().
+  const KnownParts& parts() const noexcept { return *plan_.parts; }
   const Grasp& grasp() const noexcept { return grasp_; }
   bool holds_part() const noexcept { return in_hand_; }
   /// The release of a part was interrupted: whether it lies in its bin the next look at the table tells.
@@ -149,8 +153,8 @@ class PickerMachine {
     std::uint64_t lost_parts = 0;
     std::uint64_t given_up = 0;  ///< approaches that were not finished, as the way became blocked or too long
     std::uint64_t interrupted = 0;  ///< approaches that others came between
-    std::array<std::uint64_t, 4> approaches_by_kind{};
-    std::array<std::uint64_t, 4> binned_by_kind{};
+    std::array<std::uint64_t, most_kinds> approaches_by_kind{};
+    std::array<std::uint64_t, most_kinds> binned_by_kind{};
     double cycle_time = 0;  ///< s, from bin to bin
   };
   const Counters& counters() const noexcept { return counters_; }

@@ -25,9 +25,8 @@ class Writer {
 };
 
 const char* part_name(const PickerMachine& machine) {
-  const auto kinds = known_parts();
-  const std::size_t kind = machine.part().kind;
-  return kind < kinds.size() ? kinds[kind].name : "part";
+  const PartModel* const part = machine.parts().find(machine.part().kind);
+  return part != nullptr ? part->name.data() : "part";
 }
 
 /// Of states in which it gave something up, or has nothing to do.

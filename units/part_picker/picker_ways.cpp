@@ -147,7 +147,7 @@ void PickerMachine::count_watched_pictures() noexcept {
 
 /// As it lay when the fingers closed; between them it may have turned a bit.
 Eigen::AlignedBox3d PickerMachine::held_box() const noexcept {
-  const PartModel& model = known_parts()[held_.kind];
+  const PartModel& model = plan_.parts->all()[held_.kind];
   const Eigen::Vector2d y(std::cos(held_grasp_.angle), std::sin(held_grasp_.angle));
   const Eigen::Vector2d x(-y.y(), y.x());
   const Eigen::Rotation2Dd turn(held_.angle);

@@ -49,16 +49,12 @@ bool covers(const VisionVerdict& nothing, const VisionRegion& job) {
          seen.top + seen.height >= job.top + job.height;
 }
 
-bool is_near_the_middle(const Eigen::Vector2d& pixel, const VisionRegion& job) {
-  const double across = pixel.x() - (job.left + 0.5 * job.width);
-  const double down = pixel.y() - (job.top + 0.5 * job.height);
-  return std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height);
-}
-
 /// What was measured lies in the middle of the job's region, or nothing was found where it is.
 bool answers(const VisionVerdict& verdict, const VisionRegion& job) {
-  return verdict.verdict == VisualClass::nothing ? covers(verdict, job)
-                                                 : is_near_the_middle(verdict.pixel_map(), job);
+  if (verdict.verdict == VisualClass::nothing) return covers(verdict, job);
+  const double across = verdict.pixel[0] - (job.left + 0.5 * job.width);
+  const double down = verdict.pixel[1] - (job.top + 0.5 * job.height);
+  return std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height);
 }
 
 /// What was measured is what lies in the middle of what a glance saw, or that is a piece of it.
@@ -107,15 +103,14 @@ PixelRectangle shown(const Eigen::Vector2d& middle, double radius, double height
 
 /// What shows it in the picture: of a part all corners, below and above; of an obstacle, whose shape nobody
 /// knows, what was seen of it.
-PixelRectangle shown(const Finding& finding, const CameraView& view) {
+PixelRectangle shown(const Finding& finding, const PartModel* part, const CameraView& view) {
   if (finding.found == VisualClass::obstacle) return finding.box;
   Eigen::AlignedBox2d box;
-  if (finding.found == VisualClass::target) {
-    const PartModel& part = known_parts()[finding.kind];
+  if (finding.found == VisualClass::target && part != nullptr) {
     const Eigen::Rotation2Dd turn(finding.pose.angle);
-    for (const Eigen::Vector2d& corner : part.outline()) {
+    for (const Eigen::Vector2d& corner : part->outline()) {
       const Eigen::Vector2d at = finding.pose.position + turn * corner;
-      for (const double z : {0.0, part.height}) {
+      for (const double z : {0.0, part->height}) {
         Eigen::Vector2d pixel;
         if (view.to_picture({at.x(), at.y(), z}, pixel)) box.extend(pixel);
       }
@@ -150,7 +145,8 @@ VisionVerdict verdict_of(const VisionRegion& job, const Finding& finding, const 
 }  // namespace
 
 Status Recognition::initialise() {
-  finder_.prepare(known_parts(), configuration.darkest_shadow);
+  if (const Status status = parts_.take(configuration.catalogue); !status) return status;
+  finder_.prepare(parts_.all(), configuration.catalogue.table, configuration.darkest_shadow);
   reset();
   return check_camera(configuration.camera);
 }
@@ -167,6 +163,7 @@ void Recognition::reset() noexcept {
 void Recognition::step(const Tick& /*tick*/) {
   const auto hand = in_hand.latest();
   blind_ = hidden_part(configuration.camera, hand ? &*hand : nullptr);
+  followed_in_.reset();
   std::uint32_t done = 0;
   std::uint64_t told = list_.count;
   const auto tell = [&] {
@@ -188,8 +185,8 @@ void Recognition::step(const Tick& /*tick*/) {
       continue;
     }
     ++done;
-    // At once: the arm may wait for it. Attention's can wait for each other.
-    if (job->member == no_member) tell();
+    // What was measured at once: the arm may wait for it, and the others need not measure it. The rest waits.
+    if (list_.verdicts[(list_.count - 1) % list_.verdicts.size()].pixels > 0) tell();
   }
   tell();
   feedback.done += done;
@@ -228,8 +225,10 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     return false;
   }
   feedback.set_trouble({});
+  const CameraView view(configuration.camera, tool);
   const bool is_tracked = job.member == no_member;
   if (!is_tracked) {
+    look_at_tracks(job, view);
     const auto same = [&job](const VisionVerdict& verdict) { return answers(verdict, job); };
     if (const VisionVerdict* const known = find_answered(job.frame, same); known != nullptr) {
       repeat(job, *known);
@@ -244,7 +243,6 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     note(nothing);
     return true;
   }
-  const CameraView view(configuration.camera, tool);
   const PictureView picture{frame->data().data(), frame->stride, static_cast<int>(frame->width),
                             static_cast<int>(frame->height)};
   if (const auto of = features.latest()) finder_.set_light({of->white_balance}, of->sees_table);
@@ -256,10 +254,6 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   }
   Glance at = Glance::none(rectangle_of(job));
   if (!is_tracked) {
-    if (Finding followed; find_followed(job, view, followed)) {
-      repeat(job, verdict_of(job, followed, shown(followed, view)));
-      return true;
-    }
     if (const VisionVerdict* const known = glance(picture, job, at); known != nullptr) {
       feedback.pixels += at.pixels;
       repeat(job, *known);
@@ -286,7 +280,7 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   }
   std::uint8_t part = 0;
   for (const Finding& finding : findings) {
-    VisionVerdict verdict = verdict_of(job, finding, shown(finding, view));
+    VisionVerdict verdict = verdict_of(job, finding, shown(finding, parts_.find(finding.kind), view));
     verdict.pixels = part == 0 ? finder_.pixels() : 0;
     verdict.part = part++;
     verdict.parts = static_cast<std::uint8_t>(findings.size());
@@ -311,33 +305,32 @@ bool Recognition::find_watched_place(const VisionRegion& job, const CameraView& 
   return true;
 }
 
-/// What is followed, lies in the middle of the job's region and was measured in this picture or just before.
-/// False: there is no such thing.
-bool Recognition::find_followed(const VisionRegion& job, const CameraView& view, Finding& followed) noexcept {
+/// Where the job's picture shows what was measured in it or just before.
+void Recognition::look_at_tracks(const VisionRegion& job, const CameraView& view) noexcept {
+  if (followed_in_ == job.frame) return;
+  followed_in_ = job.frame;
+  followed_count_ = 0;
   const auto list = tracks.latest();
-  if (!list) return false;
+  if (!list) return;
   for (const ObjectTrack& track : list->tracks) {
     if (track.found == VisualClass::nothing || !track.confirmed || track.misses > 0 ||
         std::abs(seconds(Duration{job.time - track.measured_at})) > as_it_was)
       continue;
+    Finding finding;
+    finding.found = track.found;
+    finding.kind = track.kind;
+    finding.pose = {track.position_map(), track.angle};
+    finding.height = track.body_height;
+    finding.radius = track.radius;
+    finding.residual = track.residual;
+    finding.support = 1;
     // A part is seen by its top, an obstacle by all of its height.
-    const double height = track.found == VisualClass::target ? track.body_height : track.body_height / 2;
-    const Eigen::Vector2d position = track.position_map();
-    if (!view.to_picture({position.x(), position.y(), height}, followed.pixel) ||
-        !is_near_the_middle(followed.pixel, job))
-      continue;
-    followed.found = track.found;
-    followed.kind = track.kind;
-    followed.pose = {position, track.angle};
-    followed.height = track.body_height;
-    followed.radius = track.radius;
-    followed.residual = track.residual;
-    followed.support = 1;
-    if (track.found == VisualClass::obstacle)
-      followed.box = shown(position, track.radius, track.body_height, view);
-    return true;
+    const bool is_part = track.found == VisualClass::target;
+    const double height = is_part ? track.body_height : track.body_height / 2;
+    if (!view.to_picture({track.position[0], track.position[1], height}, finding.pixel)) continue;
+    if (!is_part) finding.box = shown(track.position_map(), track.radius, track.body_height, view);
+    followed_[followed_count_++] = verdict_of(job, finding, shown(finding, parts_.find(finding.kind), view));
   }
-  return false;
 }
 
 /// The features of its picture say that there is but the table: it differs from itself by as much less as it
@@ -363,7 +356,8 @@ bool Recognition::is_flat(const VisionRegion& job) noexcept {
          differs(of->yellow_blue) < flat_colour * light;
 }
 
-/// What was measured in that picture and is the same, by whichever recogniser; null: there is none.
+/// What was measured in that picture and is the same, by whichever recogniser, or what is followed and was
+/// measured just before; null: there is none.
 template <class Same>
 const VisionVerdict* Recognition::find_answered(std::uint64_t frame, const Same& same) noexcept {
   const auto find_in = [&](const VisionVerdicts& list) -> const VisionVerdict* {
@@ -375,6 +369,8 @@ const VisionVerdict* Recognition::find_answered(std::uint64_t frame, const Same&
     return nullptr;
   };
   if (const VisionVerdict* const own = find_in(list_); own != nullptr) return own;
+  for (std::size_t i = 0; i < followed_count_; ++i)
+    if (same(followed_[i])) return &followed_[i];
   for (auto& other : answered) {
     const auto list = other.latest();
     if (!list) continue;

@@ -7,6 +7,7 @@
 #include "recognition_unit.hpp"
 #include "runtime/log/log.hpp"
 #include "units/vision/part_finder.hpp"
+#include "units/vision/part_model.hpp"
 
 namespace flexrf::user {
 
@@ -22,7 +23,7 @@ class Recognition final : public RecognitionUnit {
   std::optional<VisionRegion> next_job() noexcept;
   const CameraFrame* frame_of(std::uint64_t sequence) noexcept;
   bool is_flat(const VisionRegion& job) noexcept;
-  bool find_followed(const VisionRegion& job, const CameraView& view, Finding& followed) noexcept;
+  void look_at_tracks(const VisionRegion& job, const CameraView& view) noexcept;
   bool answer(const VisionRegion& job) noexcept;
   bool find_watched_place(const VisionRegion& job, const CameraView& view,
                           std::array<Eigen::Vector2d, 4>& corners) noexcept;
@@ -33,8 +34,13 @@ class Recognition final : public RecognitionUnit {
   void note(const VisionVerdict& verdict) noexcept;
   void complain(const char* trouble) noexcept;
 
+  KnownParts parts_;
   PartFinder finder_;
   VisionVerdicts list_{};
+  // As if measured in the picture of that number.
+  std::array<VisionVerdict, std::tuple_size_v<decltype(TrackList::tracks)>> followed_{};
+  std::size_t followed_count_ = 0;
+  std::optional<std::uint64_t> followed_in_;
   std::optional<VisionRegion> waiting_;  // a job whose picture this step does not see
   PixelRectangle blind_;
   LogLimit troubles_;

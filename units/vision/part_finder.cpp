@@ -43,9 +43,10 @@ PixelRectangle around_cut(const PixelRectangle& box) {
 
 }  // namespace
 
-void PartFinder::prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept {
+void PartFinder::prepare(std::span<const PartModel> parts, SurfaceColour table,
+                         double darkest_shadow) noexcept {
   parts_ = parts.first(std::min(parts.size(), most_kinds));
-  classes_.prepare(parts_, known_table_colour(), darkest_shadow);
+  classes_.prepare(parts_, table, darkest_shadow);
 }
 
 Glance PartFinder::glance(const PictureView& picture, const PixelRectangle& rectangle,

@@ -58,8 +58,9 @@ class PartFinder {
  public:
   static constexpr std::size_t most_findings = 8;
 
-  /// `darkest_shadow`: see ColourClasses::prepare(). Takes some milliseconds.
-  void prepare(std::span<const PartModel> parts, double darkest_shadow) noexcept;
+  /// `table`: its colour in white light. `darkest_shadow`: see ColourClasses::prepare(). Takes some
+  /// milliseconds. `parts` are looked at as long as this is used.
+  void prepare(std::span<const PartModel> parts, SurfaceColour table, double darkest_shadow) noexcept;
 
   /// The light of the pictures that follow. `is_known`: false where it is that of a picture before.
   void set_light(const WhiteBalance& balance, bool is_known) noexcept {

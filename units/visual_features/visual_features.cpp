@@ -1,5 +1,7 @@
 #include "units/visual_features/visual_features.hpp"
 
+#include <memory>
+
 #include "units/vision/camera_view.hpp"
 #include "units/vision/edge_sharpness.hpp"
 #include "units/vision/hidden_part.hpp"
@@ -20,7 +22,9 @@ constexpr double least_deviation = 12;  // of luminance, 0 to 255: below it edge
 
 Status FeatureExtraction::initialise() {
   extractor_.forget();
-  classes_.prepare(known_parts(), known_table_colour(), 0);
+  const auto parts = std::make_unique<KnownParts>();
+  if (const Status status = parts->take(configuration.catalogue); !status) return status;
+  classes_.prepare(parts->all(), configuration.catalogue.table, 0);
   light_.forget();
   without_light_ = 0;
   heard_ = Time{};

@@ -165,11 +165,17 @@ bool lay_all(SceneState& state, SceneRandom& random) noexcept {
 
 }  // namespace
 
-void lay_table(SceneState& state, SceneRandom& random) noexcept {
+void lay_table(SceneState& state, SceneRandom& random, std::span<const Solid> solids) noexcept {
   state.held = 0;
+  const auto meets = [&](const SceneBody& body) {
+    return body.kind != SceneKind::none && !is_far_from_solids(solids, footprint_of(body));
+  };
+  const auto meet = [&](const auto& bodies) { return std::any_of(bodies.begin(), bodies.end(), meets); };
   // What was laid when the last table did not become full is good all the same.
-  for (int i = 0; i < most_tables && !lay_all(state, random); ++i) {
-  }
+  for (int i = 0; i < most_tables; ++i)
+    if (lay_all(state, random) && !meet(state.parts) && !meet(state.obstacles)) return;
+  std::replace_if(state.parts.begin(), state.parts.end(), meets, SceneBody{});
+  std::replace_if(state.obstacles.begin(), state.obstacles.end(), meets, SceneBody{});
 }
 
 bool lay_part(SceneState& state, std::size_t part, std::span<const Solid> solids,

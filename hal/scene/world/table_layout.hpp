@@ -13,8 +13,8 @@ namespace flexrf {
 /// above: partly hidden, never wholly. None overlaps another.
 inline constexpr std::size_t laid_obstacles = 4;
 
-/// All is put away before. Nothing but `random` decides.
-void lay_table(SceneState& state, SceneRandom& random) noexcept;
+/// All is put away before. Nothing but `random` decides, and where the arm is: nothing is laid into `solids`.
+void lay_table(SceneState& state, SceneRandom& random, std::span<const Solid> solids) noexcept;
 
 /// A part at a free place, upright and on the table, and so far from obstacles that a hand finds a way to it;
 /// `solids` are in the way, too. False: none was found, and the part is as it was.

@@ -67,7 +67,7 @@ void TabletopWorld::put(const SceneState& bodies) noexcept {
 void TabletopWorld::lay_table() noexcept {
   state_.grip_position = {};
   state_.grip_orientation = {};
-  flexrf::lay_table(state_, random_);
+  flexrf::lay_table(state_, random_, solids());
   bodies_.begin(state_);
   count_bodies();
 }

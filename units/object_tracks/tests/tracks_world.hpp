@@ -5,6 +5,7 @@
 
 #include "units/object_tracks/object_tracks.hpp"
 #include "units/vision/tests/drawn_table.hpp"
+#include "units/vision/tests/known_parts.hpp"
 #include "units/vision/tests/vision_bench.hpp"
 
 namespace flexrf::user {
@@ -38,8 +39,10 @@ struct World {
     binding.outputs = outputs;
     binding.queue_outputs = queue_outputs;
     bench.unit().connect(binding);
-    static_cast<ObjectTracksConfiguration*>(bench.unit().parameter_memory().configuration)->camera =
-        camera_of_tests();
+    auto& configuration =
+        *static_cast<ObjectTracksConfiguration*>(bench.unit().parameter_memory().configuration);
+    configuration.camera = camera_of_tests();
+    configuration.catalogue = catalogue_of_tests();
     initialised = bench.unit().initialise().is_ok();
   }
   /// The next picture; its verdicts are given in the step after it.

@@ -10,6 +10,7 @@
 
 #include "hal/scene/world/tabletop_world.hpp"
 #include "tests/cmocka.hpp"
+#include "units/vision/tests/known_parts.hpp"
 
 namespace flexrf::grasp_choice_test {
 namespace {
@@ -125,16 +126,16 @@ bool the_tool_points_down_where_it_shall() {
 bool every_grasp_holds_its_part() {
   for (std::size_t place = 0; place < part_catalogue.size(); ++place) {
     const auto kind = static_cast<std::uint16_t>(place);
-    if (grasps_of(kind) == 0) return false;
-    for (std::size_t number = 0; number < grasps_of(kind); ++number) {
+    if (grasps_of(parts_of_tests(), kind).empty()) return false;
+    for (std::size_t number = 0; number < grasps_of(parts_of_tests(), kind).size(); ++number) {
       for (int turn = 0; turn < 24; ++turn) {
         const double angle = turn * pi / 12 + 0.03 - pi;
         SceneState state{};
         state.parts[0] = part_at(part_catalogue[kind].kind, {0.45, 0.02}, angle);
         const TrackList list = tracks_of(state);
         const double preferred = turn * 0.4 - 3;
-        Grasp grasp = grasp_of(list.tracks[0], number, preferred);
-        if (what_blocks(grasp, list.tracks[0], list, hand, room) != nullptr) return false;
+        Grasp grasp = grasp_of(parts_of_tests(), list.tracks[0], number, preferred);
+        if (what_blocks(parts_of_tests(), grasp, list.tracks[0], list, hand, room) != nullptr) return false;
         if (std::abs(grasp.angle - preferred) > pi / 2 + 1e-9 || grasp.number != number) return false;
         if (grasp.opening != std::min(grasp.width + 2 * room.beside_part, hand.widest)) return false;
         Trial trial(state, grasp);
@@ -160,12 +161,12 @@ bool every_grasp_forgives_what_the_camera_is_off() {
   constexpr double turned = 1.5 * pi / 180;
   for (std::size_t place = 0; place < part_catalogue.size(); ++place) {
     const auto kind = static_cast<std::uint16_t>(place);
-    for (std::size_t number = 0; number < grasps_of(kind); ++number) {
+    for (std::size_t number = 0; number < grasps_of(parts_of_tests(), kind).size(); ++number) {
       for (int direction = 0; direction < 16; ++direction) {
         SceneState state{};
         state.parts[0] = part_at(part_catalogue[kind].kind, {0.45, 0.02}, 0.3);
         const TrackList list = tracks_of(state);
-        Grasp grasp = grasp_of(list.tracks[0], number, 0.3);
+        Grasp grasp = grasp_of(parts_of_tests(), list.tracks[0], number, 0.3);
         const double way = direction * pi / 8;
         grasp.middle += off * Vector2d(std::cos(way), std::sin(way));
         grasp.angle += direction % 2 == 0 ? turned : -turned;
@@ -306,7 +307,7 @@ bool what_is_free_is_free_and_what_is_not_is_not() {
       if (track.found != VisualClass::target) continue;
       const std::size_t part = track.identity - 1;
       const char* blocked_by = nullptr;
-      const auto found = free_grasp(track, list, preferred, hand, room, blocked_by);
+      const auto found = free_grasp(parts_of_tests(), track, list, preferred, hand, room, blocked_by);
       if (!found) {
         ++blocked;
         if (blocked_by == nullptr) return false;
@@ -327,9 +328,9 @@ bool what_is_free_is_free_and_what_is_not_is_not() {
           if (trespass(*found, wider, part, state) < -between_samples) return false;
         }
       }
-      for (std::size_t number = 0; number < grasps_of(track.kind); ++number) {
-        Grasp grasp = grasp_of(track, number, preferred);
-        const char* const reason = what_blocks(grasp, track, list, hand, room);
+      for (std::size_t number = 0; number < grasps_of(parts_of_tests(), track.kind).size(); ++number) {
+        Grasp grasp = grasp_of(parts_of_tests(), track, number, preferred);
+        const char* const reason = what_blocks(parts_of_tests(), grasp, track, list, hand, room);
         if (!found && reason == nullptr) return false;
         const double least = grasp.width + 2 * room.least_beside;
         const bool obstacle = reason != nullptr && std::strstr(reason, "obstacle") != nullptr;
@@ -351,11 +352,12 @@ bool the_hand_turns_little() {
       state.parts[0] = part_at(part_catalogue[kind].kind, {0.45, 0}, angle);
       const TrackList list = tracks_of(state);
       const char* blocked_by = nullptr;
-      const auto found = free_grasp(list.tracks[0], list, 1.5, hand, room, blocked_by);
+      const auto found = free_grasp(parts_of_tests(), list.tracks[0], list, 1.5, hand, room, blocked_by);
       if (!found) return false;
       double least = pi;
-      for (std::size_t number = 0; number < grasps_of(kind); ++number)
-        least = std::min(least, std::abs(grasp_of(list.tracks[0], number, 1.5).angle - 1.5));
+      for (std::size_t number = 0; number < grasps_of(parts_of_tests(), kind).size(); ++number)
+        least =
+            std::min(least, std::abs(grasp_of(parts_of_tests(), list.tracks[0], number, 1.5).angle - 1.5));
       if (std::abs(found->angle - 1.5) > least + nearly_alike) return false;
     }
   }
@@ -370,16 +372,18 @@ bool what_does_not_count_is_not_in_the_way() {
   state.obstacles[0].size = {0.04, 0.04, 0.09};
   TrackList list = tracks_of(state);
   const char* blocked_by = nullptr;
-  if (free_grasp(list.tracks[0], list, 0, hand, room, blocked_by) || blocked_by == nullptr) return false;
+  if (free_grasp(parts_of_tests(), list.tracks[0], list, 0, hand, room, blocked_by) || blocked_by == nullptr)
+    return false;
   const ObjectTrack obstacle = list.tracks[1];
   list.tracks[1].confirmed = false;
-  if (!free_grasp(list.tracks[0], list, 0, hand, room, blocked_by)) return false;
+  if (!free_grasp(parts_of_tests(), list.tracks[0], list, 0, hand, room, blocked_by)) return false;
   list.tracks[1] = obstacle;
   list.tracks[1].found = VisualClass::nothing;
-  if (!free_grasp(list.tracks[0], list, 0, hand, room, blocked_by)) return false;
+  if (!free_grasp(parts_of_tests(), list.tracks[0], list, 0, hand, room, blocked_by)) return false;
   // Beside a part that is not sure to be there either.
   state.obstacles[0].kind = SceneKind::none;
-  return free_grasp(list.tracks[0], tracks_of(state), 0, hand, room, blocked_by).has_value();
+  return free_grasp(parts_of_tests(), list.tracks[0], tracks_of(state), 0, hand, room, blocked_by)
+      .has_value();
 }
 
 bool what_is_too_wide_or_unknown_is_told() {
@@ -389,14 +393,16 @@ bool what_is_too_wide_or_unknown_is_told() {
   HandShape small = hand;
   small.widest = 0.047;  // 40 mm and 4 on each side are more
   const char* blocked_by = nullptr;
-  if (free_grasp(list.tracks[0], list, 0, small, room, blocked_by) || blocked_by == nullptr) return false;
+  if (free_grasp(parts_of_tests(), list.tracks[0], list, 0, small, room, blocked_by) || blocked_by == nullptr)
+    return false;
   small.widest = 0.0485;
-  const auto narrow = free_grasp(list.tracks[0], list, 0, small, room, blocked_by);
+  const auto narrow = free_grasp(parts_of_tests(), list.tracks[0], list, 0, small, room, blocked_by);
   if (!narrow || narrow->opening > small.widest) return false;
   list.tracks[0].kind = 65535;
   blocked_by = nullptr;
-  return grasps_of(4) == 0 && grasps_of(65535) == 0 &&
-         !free_grasp(list.tracks[0], list, 0, hand, room, blocked_by) && blocked_by != nullptr;
+  return grasps_of(parts_of_tests(), 4).empty() && grasps_of(parts_of_tests(), 65535).empty() &&
+         !free_grasp(parts_of_tests(), list.tracks[0], list, 0, hand, room, blocked_by) &&
+         blocked_by != nullptr;
 }
 
 template <bool (*Run)()>

@@ -9,6 +9,7 @@
 #include "motion/pose_conversion.hpp"
 #include "tests/cmocka.hpp"
 #include "units/unit_bench.hpp"
+#include "units/vision/tests/known_parts.hpp"
 
 namespace flexrf::part_picker_test {
 namespace {
@@ -49,8 +50,9 @@ struct World {
     where.linear() = Eigen::AngleAxisd(3.141592653589793, Eigen::Vector3d::UnitX()).toRotationMatrix();
     lead.activity = RobotActivity::servo;
     lead.mode = ControlMode::automatic;
+    configuration().catalogue = catalogue_of_tests();
   }
-  auto& configuration() {
+  PartPickerConfiguration& configuration() {
     return *static_cast<PartPickerConfiguration*>(bench.unit().parameter_memory().configuration);
   }
   Status begin() {
@@ -194,6 +196,35 @@ bool yields_to_others() {
   return true;
 }
 
+/// A kind that the table draws and no header knows: it is called by its name, and comes into its own bin.
+bool another_kind_comes_into_its_bin() {
+  const auto world = std::make_unique<World>();
+  PartDrawing& ring = world->configuration().catalogue.parts[4];
+  ring.set_name("ring");
+  ring.radius = 0.02;
+  ring.height = 0.015;
+  ring.grasps[0].width = 0.04;
+  ring.bin.middle = {0.70, 0.0};
+  ring.bin.size = {0.10, 0.20};
+  world->lay_disc();
+  world->list.tracks[0].kind = 4;
+  if (!world->begin() || !world->until(PickerState::descending) || !world->says("ring")) return false;
+  if (!world->until(PickerState::lifting)) return false;
+  world->list.tracks[0].found = VisualClass::nothing;
+  if (!world->until(PickerState::releasing)) return false;
+  const bool is_over = std::abs(world->where.translation().x() - 0.70) < 0.03;
+  world->run(3);
+  return is_over && world->bench.feedback().binned_by_kind[4] == 1;
+}
+
+bool a_part_without_a_bin_is_left() {
+  const auto world = std::make_unique<World>();
+  world->configuration().catalogue.parts[1].bin = {};
+  world->lay_disc();
+  return world->begin() && !world->until(PickerState::approaching, 15) &&
+         world->state() == PickerState::waiting;
+}
+
 bool inhibited_it_neither_moves_nor_grips() {
   const auto world = std::make_unique<World>();
   world->lay_disc();
@@ -243,7 +274,9 @@ bool what_cannot_be_is_refused() {
   // Fingers that know open and closed alone could not be opened for a part among others.
   const bool fingers =
       refuses([](World& world) { world.gripper.configuration().two_state = true; }, "gripper");
-  return box && look_out && reach && fingers;
+  const bool parts = refuses([](World& world) { world.configuration().catalogue.parts[0].height = 0; },
+                             "catalogue: 'block' needs a height");
+  return box && look_out && reach && fingers && parts;
 }
 
 template <bool (*Run)()>
@@ -263,6 +296,8 @@ int main() {
       {"holds when nobody says who leads", passes<holds_when_nobody_says_who_leads>, nullptr, nullptr,
        nullptr},
       {"yields to others", passes<yields_to_others>, nullptr, nullptr, nullptr},
+      {"another kind", passes<another_kind_comes_into_its_bin>, nullptr, nullptr, nullptr},
+      {"no bin", passes<a_part_without_a_bin_is_left>, nullptr, nullptr, nullptr},
       {"inhibited", passes<inhibited_it_neither_moves_nor_grips>, nullptr, nullptr, nullptr},
       {"stuck fingers", passes<stuck_fingers_go_on_after_a_press>, nullptr, nullptr, nullptr},
       {"what cannot be is refused", passes<what_cannot_be_is_refused>, nullptr, nullptr, nullptr},

@@ -15,6 +15,7 @@
 #include "tests/distance_to_line.hpp"
 #include "units/part_picker/picker_machine.hpp"
 #include "units/part_picker/picker_messages.hpp"
+#include "units/vision/tests/known_parts.hpp"
 
 namespace flexrf::user {
 
@@ -34,7 +35,8 @@ inline PickerPlan usual_plan() {
   plan.bin_look_offset = 0.08;
   plan.nearest = 0.25;
   plan.farthest = 1.2;
-  for (std::size_t i = 0; i < plan.bins.size(); ++i)
+  plan.parts = &parts_of_tests();
+  for (std::size_t i = 0; i < part_bins.size(); ++i)
     plan.bins[i] = {{part_bins[i].middle.x, part_bins[i].middle.y},
                     {part_bins[i].size.x, part_bins[i].size.y}};
   return plan;

@@ -9,6 +9,7 @@
 #include "units/recognition/recognition.hpp"
 #include "units/recognition/tests/seen_tables.hpp"
 #include "units/vision/attention_genes.hpp"
+#include "units/vision/tests/known_parts.hpp"
 #include "units/vision/tests/light_meter.hpp"
 #include "units/vision/tests/vision_bench.hpp"
 
@@ -45,7 +46,10 @@ struct Cell {
     binding.queue_inputs = sources;
     binding.outputs = outputs;
     bench.unit().connect(binding);
-    static_cast<RecognitionConfiguration*>(bench.unit().parameter_memory().configuration)->camera = camera;
+    auto& configuration =
+        *static_cast<RecognitionConfiguration*>(bench.unit().parameter_memory().configuration);
+    configuration.camera = camera;
+    configuration.catalogue = catalogue_of_tests();
     assert_true(bench.unit().initialise().is_ok());
   }
   void show(const SeenTable& table) {

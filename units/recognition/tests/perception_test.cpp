@@ -238,7 +238,7 @@ class Judge {
                                     : hidden            ? "partly hidden"
                                     : sight.touches     ? "touching"
                                                         : "single";
-      for (const char* const name : {situation, known_parts()[kind_of(part)].name}) {
+      for (const char* const name : {situation, known_parts()[kind_of(part)].name.data()}) {
         if (sight.visible < 0.6 && name != situation) continue;
         Recall& recall = score_.parts[name];
         ++recall.seen;

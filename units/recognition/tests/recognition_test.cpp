@@ -42,8 +42,10 @@ struct World {
     binding.queue_inputs = sources;
     binding.outputs = outputs;
     bench.unit().connect(binding);
-    static_cast<RecognitionConfiguration*>(bench.unit().parameter_memory().configuration)->camera =
-        camera_of_tests();
+    auto& configuration =
+        *static_cast<RecognitionConfiguration*>(bench.unit().parameter_memory().configuration);
+    configuration.camera = camera_of_tests();
+    configuration.catalogue = catalogue_of_tests();
     initialised = bench.unit().initialise().is_ok();
     table.put(known_parts()[0], block_pose);
     table.put(known_parts()[1], disc_pose);
@@ -241,7 +243,7 @@ bool what_lies_in_the_box_of_a_part_is_measured() {
   const auto world = std::make_unique<World>();
   constexpr std::size_t bracket = 3;
   const OutlinePose pose{{0.46, 0.08}, 0};
-  const PartModel& model = known_parts()[bracket];
+  const auto& model = known_parts()[bracket];
   world->table.put(model, pose);
   // In the corner of the L: that is the middle of its box, and not of the L.
   Eigen::AlignedBox2d box;

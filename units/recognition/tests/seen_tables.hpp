@@ -74,7 +74,7 @@ class TableSeer {
   /// Another table in another light, seen by a camera that is calibrated as well as one can.
   void lay(const CameraModel& camera) {
     camera_ = camera;
-    lay_table(table_.state, random_);
+    lay_table(table_.state, random_, {});
     const bool usual = random_.below(3) == 0;
     const double azimuth = usual ? 0.9 : random_.between(0, 2 * std::numbers::pi);
     const double elevation = usual ? 1.1 : random_.between(0.8, 1.4);

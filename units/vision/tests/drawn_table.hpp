@@ -12,6 +12,7 @@
 #include "units/vision/camera_view.hpp"
 #include "units/vision/outline_fit.hpp"
 #include "units/vision/region_bitmap.hpp"
+#include "units/vision/tests/known_parts.hpp"
 
 namespace flexrf::user {
 

@@ -4,6 +4,7 @@
 #include "types/visual_features.hpp"
 #include "units/vision/part_finder.hpp"
 #include "units/vision/table_light.hpp"
+#include "units/vision/tests/known_parts.hpp"
 
 namespace flexrf::user {
 

@@ -21,7 +21,7 @@ constexpr std::size_t bracket = 3;
 
 struct World {
   explicit World(const flexrf::Pose& tool = tool_above(0.45, 0, 0.45)) : table(tool) {
-    finder.prepare(known_parts(), 0.4);
+    finder.prepare(known_parts(), known_table_colour(), 0.4);
   }
   void put(std::size_t kind, const OutlinePose& pose) { table.put(known_parts()[kind], pose); }
   std::span<const Finding> find(const PixelRectangle& rectangle, double noise = 4,
@@ -68,8 +68,8 @@ bool is_found(std::span<const Finding> findings, std::size_t kind, const Outline
     if (finding.found == VisualClass::target && finding.kind == kind &&
         position_error(finding, pose) < 0.001 && angle_error(finding, pose) < 2 * degree)
       return true;
-  print_message("%s at %.4f %.4f %.1f, of %zu findings:\n", known_parts()[kind].name, pose.position.x(),
-                pose.position.y(), pose.angle / degree, findings.size());
+  print_message("%s at %.4f %.4f %.1f, of %zu findings:\n", known_parts()[kind].name.data(),
+                pose.position.x(), pose.position.y(), pose.angle / degree, findings.size());
   for (const Finding& finding : findings)
     print_message("  class %d kind %d at %.4f %.4f %.1f, residual %.5f, support %.2f\n",
                   static_cast<int>(finding.found), finding.kind, finding.pose.position.x(),
@@ -150,7 +150,7 @@ bool an_obstacle_stands_where_its_foot_is(double height, double most_off) {
   for (const Eigen::Vector2d& place : {Eigen::Vector2d(0.48, 0.04), Eigen::Vector2d(0.36, 0.10),
                                        Eigen::Vector2d(0.53, -0.06), Eigen::Vector2d(0.45, -0.02)}) {
     const auto world = std::make_unique<World>();
-    const PartModel box = rectangle_of_tests(0.035, 0.035, height, {70, 70, 75});
+    const user::PartModel box = rectangle_of_tests(0.035, 0.035, height, {70, 70, 75});
     world->table.put(box, {place, 0.2});
     const auto findings = world->find(world->table.around(place, 0.12));
     if (findings.size() != 1 || findings[0].found != VisualClass::obstacle || findings[0].kind != no_kind)
@@ -244,7 +244,7 @@ bool noise_ends_and_is_no_part() {
   return true;
 }
 
-const PartModel post = rectangle_of_tests(0.04, 0.04, 0.09, {70, 70, 75});
+const user::PartModel post = rectangle_of_tests(0.04, 0.04, 0.09, {70, 70, 75});
 const Eigen::Vector2d looked_at(0.45, 0);
 
 bool a_bare_place_is_told() {

@@ -37,7 +37,7 @@ struct World {
     Eigen::Vector2d to(0, 0);
     table.view().to_plane(0, 240, 0, from);
     table.view().to_plane(last, 240, 0, to);
-    PartModel sheet = rectangle_of_tests((to - from).norm(), 1.0, 0, colour);
+    user::PartModel sheet = rectangle_of_tests((to - from).norm(), 1.0, 0, colour);
     sheet.radius = 0.3;
     table.put(sheet, {(from + to) / 2, 0});
   }

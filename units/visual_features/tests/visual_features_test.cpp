@@ -35,6 +35,8 @@ struct World {
     binding.inputs = inputs;
     binding.outputs = outputs;
     bench.unit().connect(binding);
+    static_cast<FeatureExtractionConfiguration*>(bench.unit().parameter_memory().configuration)->catalogue =
+        catalogue_of_tests();
     initialised = bench.unit().initialise().is_ok();
     paint();
     draw(table.picture(4));

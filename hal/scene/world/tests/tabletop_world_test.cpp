@@ -104,13 +104,29 @@ bool the_seed_lays_the_table() {
   return is_new && is_same(one, same);
 }
 
+/// Wherever the hand is, nothing is laid into it: it touches nothing then, and moves nothing.
+bool a_table_is_laid_around_the_hand() {
+  for (int i = 0; i < 30; ++i) {
+    WorldBench bench;
+    bench.put_parts({});
+    bench.jump(0.32 + 0.008 * i, 0.2 - 0.013 * i, 0.01, 0.06, 0.2 * i);
+    const auto before = bench.world.counts();
+    bench.world.lay_table();
+    bench.move(0.32 + 0.008 * i, 0.2 - 0.013 * i, 0.01, 0.06, 0.2 * i);
+    const auto& after = bench.world.counts();
+    if (after.contacts != before.contacts || after.touches != before.touches || after.parts_on_table < 11)
+      return false;
+  }
+  return true;
+}
+
 // Else there would lie, in the end, nothing but what a hand cannot take.
 bool what_comes_anew_stands_where_a_hand_has_room() {
   SceneRandom random;
   random.seed(5);
   for (int table = 0; table < 20; ++table) {
     SceneState state{};
-    lay_table(state, random);
+    lay_table(state, random, {});
     for (std::size_t i = 0; i < most_parts; ++i) {
       if (!lay_part(state, i, {}, random)) return false;
       const Footprint part = footprint_of(state.parts[i]);
@@ -248,6 +264,7 @@ int main() {
   const CMUnitTest tests[] = {
       cmocka_unit_test(judged<a_table_is_laid_as_promised>),
       cmocka_unit_test(judged<the_seed_lays_the_table>),
+      cmocka_unit_test(judged<a_table_is_laid_around_the_hand>),
       cmocka_unit_test(judged<what_comes_anew_stands_where_a_hand_has_room>),
       cmocka_unit_test(judged<what_is_touched_moves>),
       cmocka_unit_test(judged<pushed_beside_its_middle_it_turns>),
