@@ -254,6 +254,11 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
   }
   Glance at = Glance::none(rectangle_of(job));
   if (!is_tracked) {
+    if (const VisionVerdict* const known = find_part_in_the_middle(picture, job, view); known != nullptr) {
+      feedback.pixels += finder_.pixels();
+      repeat(job, *known);
+      return true;
+    }
     if (const VisionVerdict* const known = glance(picture, job, at); known != nullptr) {
       feedback.pixels += at.pixels;
       repeat(job, *known);
@@ -377,6 +382,24 @@ const VisionVerdict* Recognition::find_answered(std::uint64_t frame, const Same&
     if (const VisionVerdict* const found = find_in(*list); found != nullptr) return found;
   }
   return nullptr;
+}
+
+/// What is known of the part within whose outline the middle of the job's region lies, and whose colour it
+/// has: nothing else does. Null: there is none. Attention often finds a piece of a part.
+const VisionVerdict* Recognition::find_part_in_the_middle(const PictureView& picture, const VisionRegion& job,
+                                                          const CameraView& view) noexcept {
+  const int column = job.left + job.width / 2;
+  const int row = job.top + job.height / 2;
+  const std::uint8_t of = finder_.class_at(picture, column, row, blind_);
+  const PartModel* const part =
+      of < class_first_part ? nullptr : parts_.find(static_cast<std::uint16_t>(of - class_first_part));
+  Eigen::Vector2d place;
+  if (part == nullptr || !view.to_plane(column + 0.5, row + 0.5, part->height, place)) return nullptr;
+  const auto same = [&](const VisionVerdict& verdict) {
+    return verdict.verdict == VisualClass::target && parts_.find(verdict.kind) == part &&
+           is_within(*part, {verdict.position_map(), verdict.angle}, place);
+  };
+  return find_answered(job.frame, same);
 }
 
 /// What was measured of what a glance at the job's region saw, by whichever recogniser; null: nothing, or it

@@ -29,6 +29,8 @@ class Recognition final : public RecognitionUnit {
                           std::array<Eigen::Vector2d, 4>& corners) noexcept;
   template <class Same>
   const VisionVerdict* find_answered(std::uint64_t frame, const Same& same) noexcept;
+  const VisionVerdict* find_part_in_the_middle(const PictureView& picture, const VisionRegion& job,
+                                               const CameraView& view) noexcept;
   const VisionVerdict* glance(const PictureView& picture, const VisionRegion& job, Glance& at) noexcept;
   void repeat(const VisionRegion& job, const VisionVerdict& known) noexcept;
   void note(const VisionVerdict& verdict) noexcept;

@@ -68,6 +68,13 @@ class PartFinder {
     is_light_known_ = is_known;
   }
 
+  /// Of one pixel.
+  std::uint8_t class_at(const PictureView& picture, int column, int row,
+                        const PixelRectangle& blind) noexcept {
+    pixels_ = look(picture, {column - 1, row - 1, 3, 3}, blind);
+    return bitmap_.pixel_class(1, 1);
+  }
+
   /// A rectangle is about what lies in its middle: in the answer is that, and what lies beside it.
   Glance glance(const PictureView& picture, const PixelRectangle& rectangle,
                 const PixelRectangle& blind) noexcept;
@@ -93,7 +100,7 @@ class PartFinder {
   /// not known.
   bool is_complete() const noexcept { return is_complete_; }
 
-  /// Pixels that the last measure() or measure_all() looked at, with those of the glance.
+  /// Pixels that the last class_at(), measure() or measure_all() looked at, with those of the glance.
   std::uint32_t pixels() const noexcept { return pixels_; }
 
  private:

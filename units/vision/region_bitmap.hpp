@@ -55,6 +55,10 @@ class RegionBitmap {
   std::uint8_t label(int column, int row) const noexcept {
     return is_inside(column, row) ? labels_[place(column, row)] : std::uint8_t{0};
   }
+  /// Of a cell; the table's outside of the bitmap.
+  std::uint8_t pixel_class(int column, int row) const noexcept {
+    return is_inside(column, row) ? classes_[place(column, row)] : class_table;
+  }
   /// Whether it lies within what was looked at, and not in what is blind.
   bool is_seen(int column, int row) const noexcept {
     return is_inside(column, row) && classes_[place(column, row)] != class_unseen;
