@@ -186,7 +186,7 @@ void Recognition::step(const Tick& /*tick*/) {
     }
     ++done;
     // What was measured at once: the arm may wait for it, and the others need not measure it. The rest waits.
-    if (list_.verdicts[(list_.count - 1) % list_.verdicts.size()].pixels > 0) tell();
+    if (is_measured_) tell();
   }
   tell();
   feedback.done += done;
@@ -209,6 +209,7 @@ const CameraFrame* Recognition::frame_of(std::uint64_t sequence) noexcept {
 
 /// False: nobody can answer it any more.
 bool Recognition::answer(const VisionRegion& job) noexcept {
+  is_measured_ = false;
   const CameraFrame* const frame = frame_of(job.frame);
   if (frame == nullptr || !has_usable_size(*frame)) {
     ++feedback.outdated;
@@ -235,23 +236,13 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
       return true;
     }
   }
-  VisionVerdict nothing = verdict_of(job, Finding{}, {});
-  nothing.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
   if (!job.watched && is_flat(job)) {
-    nothing.complete = is_tracked;
-    ++feedback.nothing;
-    note(nothing);
+    note_nothing(job, 0, is_tracked);
     return true;
   }
   const PictureView picture{frame->data().data(), frame->stride, static_cast<int>(frame->width),
                             static_cast<int>(frame->height)};
   if (const auto of = features.latest()) finder_.set_light({of->white_balance}, of->sees_table);
-  Finding expected;
-  if (job.track != 0) {
-    expected.kind = job.kind;
-    expected.pose.position = {job.expected[0], job.expected[1]};
-    expected.pose.angle = job.expected[2];
-  }
   Glance at = Glance::none(rectangle_of(job));
   if (!is_tracked) {
     if (const VisionVerdict* const known = find_part_in_the_middle(picture, job, view); known != nullptr) {
@@ -265,23 +256,31 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
       return true;
     }
   }
+  measure(picture, job, at, view);
+  return true;
+}
+
+void Recognition::measure(const PictureView& picture, const VisionRegion& job, const Glance& at,
+                          const CameraView& view) noexcept {
+  std::array<Eigen::Vector2d, 4> place;
+  if (job.watched && !find_watched_place(job, view, place)) return note_nothing(job, 0, false);
+  Finding expected;
+  if (job.track != 0) {
+    expected.kind = job.kind;
+    expected.pose.position = {job.expected[0], job.expected[1]};
+    expected.pose.angle = job.expected[2];
+  }
   const FindingLimits limits{runtime.least_support, runtime.most_residual, runtime.least_obstacle,
                              runtime.obstacle_height};
-  std::array<Eigen::Vector2d, 4> place;
-  if (job.watched && !find_watched_place(job, view, place)) {
-    note(nothing);
-    return true;
-  }
   const auto findings = job.watched ? finder_.measure_all(picture, at.rectangle, blind_, view, limits, place)
                                     : finder_.measure(picture, at, blind_, view, expected, limits);
+  is_measured_ = true;
   feedback.pixels += finder_.pixels();
-  nothing.pixels = finder_.pixels();
-  // A glance from too far away may have missed a thing.
-  const bool is_close = is_tracked || (at.is_empty() && at.least <= smallest_piece);
-  nothing.complete = is_close && finder_.is_complete();
+  const bool is_tracked = job.member == no_member;
   if (findings.empty()) {
-    ++feedback.nothing;
-    note(nothing);
+    // A glance from too far away may have missed a thing.
+    const bool is_close = is_tracked || (at.is_empty() && at.least <= smallest_piece);
+    note_nothing(job, finder_.pixels(), is_close && finder_.is_complete());
   }
   std::uint8_t part = 0;
   for (const Finding& finding : findings) {
@@ -293,7 +292,15 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     ++(finding.found == VisualClass::target ? feedback.targets : feedback.obstacles);
     note(verdict);
   }
-  return true;
+}
+
+void Recognition::note_nothing(const VisionRegion& job, std::uint32_t pixels, bool is_complete) noexcept {
+  VisionVerdict nothing = verdict_of(job, Finding{}, {});
+  nothing.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
+  nothing.pixels = pixels;
+  nothing.complete = is_complete;
+  ++feedback.nothing;
+  note(nothing);
 }
 
 /// Its corners in the picture. False: another place is watched by now.

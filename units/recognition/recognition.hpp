@@ -25,6 +25,9 @@ class Recognition final : public RecognitionUnit {
   bool is_flat(const VisionRegion& job) noexcept;
   void look_at_tracks(const VisionRegion& job, const CameraView& view) noexcept;
   bool answer(const VisionRegion& job) noexcept;
+  void measure(const PictureView& picture, const VisionRegion& job, const Glance& at,
+               const CameraView& view) noexcept;
+  void note_nothing(const VisionRegion& job, std::uint32_t pixels, bool is_complete) noexcept;
   bool find_watched_place(const VisionRegion& job, const CameraView& view,
                           std::array<Eigen::Vector2d, 4>& corners) noexcept;
   template <class Same>
@@ -44,6 +47,7 @@ class Recognition final : public RecognitionUnit {
   std::size_t followed_count_ = 0;
   std::optional<std::uint64_t> followed_in_;
   std::optional<VisionRegion> waiting_;  // a job whose picture this step does not see
+  bool is_measured_ = false;             // the last job was answered by a measurement
   PixelRectangle blind_;
   LogLimit troubles_;
 };
