@@ -57,12 +57,15 @@ bool answers(const VisionVerdict& verdict, const VisionRegion& job) {
   return std::max(std::abs(across), std::abs(down)) < near_the_middle * std::max(job.width, job.height);
 }
 
-/// What was measured is what lies in the middle of what a glance saw, or that is a piece of it.
+std::uint16_t kind_of(std::uint8_t pixel_class) {
+  return pixel_class < class_first_part ? no_kind
+                                        : static_cast<std::uint16_t>(pixel_class - class_first_part);
+}
+
+/// What was measured is what lies in the middle of what a glance saw, or that is a piece of it. It may have
+/// been found to be neither part nor obstacle.
 bool shows(const VisionVerdict& verdict, const Glance& at) {
-  const bool is_of_class = verdict.verdict == VisualClass::target
-                               ? at.pixel_class == class_first_part + verdict.kind
-                               : verdict.verdict == VisualClass::obstacle && at.pixel_class == class_foreign;
-  if (!is_of_class) return false;
+  if (verdict.kind != kind_of(at.pixel_class)) return false;
   const PixelRectangle box{verdict.left, verdict.top, verdict.width, verdict.height};
   const int common = common_part(box, at.middle).area();
   return at.is_cut ? common > within * at.middle.area()
@@ -237,7 +240,7 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
     }
   }
   if (!job.watched && is_flat(job)) {
-    note_nothing(job, 0, is_tracked);
+    note_nothing(job, 0, is_tracked, {});
     return true;
   }
   const PictureView picture{frame->data().data(), frame->stride, static_cast<int>(frame->width),
@@ -263,7 +266,7 @@ bool Recognition::answer(const VisionRegion& job) noexcept {
 void Recognition::measure(const PictureView& picture, const VisionRegion& job, const Glance& at,
                           const CameraView& view) noexcept {
   std::array<Eigen::Vector2d, 4> place;
-  if (job.watched && !find_watched_place(job, view, place)) return note_nothing(job, 0, false);
+  if (job.watched && !find_watched_place(job, view, place)) return note_nothing(job, 0, false, {});
   Finding expected;
   if (job.track != 0) {
     expected.kind = job.kind;
@@ -280,7 +283,7 @@ void Recognition::measure(const PictureView& picture, const VisionRegion& job, c
   if (findings.empty()) {
     // A glance from too far away may have missed a thing.
     const bool is_close = is_tracked || (at.is_empty() && at.least <= smallest_piece);
-    note_nothing(job, finder_.pixels(), is_close && finder_.is_complete());
+    note_nothing(job, finder_.pixels(), is_close && finder_.is_complete(), at);
   }
   std::uint8_t part = 0;
   for (const Finding& finding : findings) {
@@ -294,8 +297,11 @@ void Recognition::measure(const PictureView& picture, const VisionRegion& job, c
   }
 }
 
-void Recognition::note_nothing(const VisionRegion& job, std::uint32_t pixels, bool is_complete) noexcept {
-  VisionVerdict nothing = verdict_of(job, Finding{}, {});
+void Recognition::note_nothing(const VisionRegion& job, std::uint32_t pixels, bool is_complete,
+                               const Glance& at) noexcept {
+  Finding finding;
+  finding.kind = kind_of(at.pixel_class);
+  VisionVerdict nothing = verdict_of(job, finding, at.middle);
   nothing.pixel = {job.left + 0.5 * job.width, job.top + 0.5 * job.height};
   nothing.pixels = pixels;
   nothing.complete = is_complete;

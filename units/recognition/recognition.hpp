@@ -27,7 +27,8 @@ class Recognition final : public RecognitionUnit {
   bool answer(const VisionRegion& job) noexcept;
   void measure(const PictureView& picture, const VisionRegion& job, const Glance& at,
                const CameraView& view) noexcept;
-  void note_nothing(const VisionRegion& job, std::uint32_t pixels, bool is_complete) noexcept;
+  void note_nothing(const VisionRegion& job, std::uint32_t pixels, bool is_complete,
+                    const Glance& at) noexcept;
   bool find_watched_place(const VisionRegion& job, const CameraView& view,
                           std::array<Eigen::Vector2d, 4>& corners) noexcept;
   template <class Same>

@@ -292,6 +292,23 @@ bool beside_what_was_no_part_a_part_is_found() {
   return no_part && world->count() == 2 && !world->last().repeated && world->last_is(0, block_pose);
 }
 
+/// It is too small to be anything, for the next region as for this one.
+bool what_was_no_part_is_not_measured_again() {
+  const auto world = std::make_unique<World>();
+  const Eigen::Vector2d speck(0.45, 0.12);
+  world->table.put(rectangle_of_tests(0.012, 0.012, 0.002, {70, 70, 75}), {speck, 0});
+  world->frames.draw(world->table.picture(4));
+  world->give();
+  world->found.push(world->job_at(speck, 0.06));
+  world->step();
+  const VisionVerdict first = world->last();
+  world->found.push(world->job_at(speck + Eigen::Vector2d(0.006, 0.004), 0.05));
+  world->step();
+  return first.verdict == VisualClass::nothing && !first.repeated && first.width > 0 &&
+         first.kind == no_kind && world->count() == 2 && world->last().repeated &&
+         world->last().verdict == VisualClass::nothing;
+}
+
 /// A glance at most of the picture does not see small things: it says nothing of the regions within.
 bool what_a_coarse_glance_misses_is_found() {
   const auto world = std::make_unique<World>();
@@ -522,6 +539,7 @@ void repeated(void**) {
   assert_true(what_lies_in_the_box_of_a_part_is_measured());
   assert_true(where_nothing_was_nothing_is_looked_for_again());
   assert_true(beside_what_was_no_part_a_part_is_found());
+  assert_true(what_was_no_part_is_not_measured_again());
   assert_true(what_a_coarse_glance_misses_is_found());
   assert_true(the_next_picture_is_measured_anew());
 }
