@@ -22,7 +22,8 @@ void PickerMachine::step(const PickerView& view, const PickerWishes& wishes) noe
   if (view.tracks_are_new) ++pictures_;
   count_watched_pictures();
   if (!view.arm_rests) moved_ = view.now;
-  if (view.others_lead) needs_survey_ = true;
+  // While a hand led the arm, or the camera told nothing, anything may have been laid onto the table.
+  if (view.others_lead || view.tracks == nullptr) needs_survey_ = true;
   if (!supervise()) act_in_state();
   const bool is_between = in_hand_ || state_ == PickerState::closing;
   if (is_between) let_go_ = view.now + picker::picture_age;

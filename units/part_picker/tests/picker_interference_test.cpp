@@ -84,6 +84,21 @@ bool without_sight_the_arm_holds() {
   });
 }
 
+/// What was laid there meanwhile nobody saw.
+bool after_it_was_blind_the_whole_table_is_looked_at() {
+  return at_each_stage([](PickerWorld& world, PickerState stage) {
+    world.sees = false;
+    if (!world.run(2)) return false;
+    const bool has_part = world.machine.holds_part();
+    world.states.clear();
+    world.sees = true;
+    if (!world.run(3) || has_part || stage == releasing || stage == closing) return world.is_well;
+    const auto next = std::find_if(world.states.begin(), world.states.end(),
+                                   [](PickerState state) { return state != retreating; });
+    return next != world.states.end() && *next == surveying;
+  });
+}
+
 /// Low and to the side, as hands do; it begins anew with a look at the whole table.
 bool what_a_hand_leads_is_left_to_it() {
   return at_each_stage([](PickerWorld& world, PickerState stage) {
@@ -336,6 +351,7 @@ int main() {
       {"nothing may move", passes<nothing_moves_when_nothing_may>, nullptr, nullptr, nullptr},
       {"no pose", passes<an_arm_that_does_not_say_where_it_is_rests>, nullptr, nullptr, nullptr},
       {"no sight", passes<without_sight_the_arm_holds>, nullptr, nullptr, nullptr},
+      {"after no sight", passes<after_it_was_blind_the_whole_table_is_looked_at>, nullptr, nullptr, nullptr},
       {"led by a hand", passes<what_a_hand_leads_is_left_to_it>, nullptr, nullptr, nullptr},
       {"switched off", passes<picking_that_is_switched_off_ends_in_order>, nullptr, nullptr, nullptr},
       {"a stop is requested", passes<a_stop_is_heeded_at_once>, nullptr, nullptr, nullptr},
