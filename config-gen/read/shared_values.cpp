@@ -45,7 +45,7 @@ class Sharing {
   }
 
  private:
-  // What cannot be followed stays a reference.
+  // A reference that leads nowhere is reported, and stays.
   void take(Node& value) {
     const Node* const reference = reference_in(value);
     if (reference == nullptr) return;

@@ -6,9 +6,8 @@
 
 namespace flexrf::config_gen {
 
-// In the rows of units and devices of a table, puts the value that is meant in the place of each reference.
-// What is meant has no value, or leads back to the reference: reported, and the value is as if it were not
-// written.
+// Replaces each reference in the rows of units and devices of a table by the value that it names. A reference
+// to nothing, or in a circle, is an error and is removed.
 void share_values(Node& table, Diagnostics& diagnostics);
 
 }  // namespace flexrf::config_gen

@@ -340,7 +340,7 @@ void ObjectTracks::post(const VisualFeatures& of, Time sampled_at) noexcept {
     const ObjectTrack& track = list_.tracks[i];
     if (track.found == VisualClass::nothing) continue;
     const double rested = seconds(Duration{of.time - track.measured_at});
-    // What moves by itself, is missed, or is gone to is measured in each picture.
+    // A track on a belt, a missed one and the arm's target are measured in each picture.
     const bool may_rest =
         track.confirmed && track.misses == 0 && track.identity != watched_.track && !runtime.belt;
     if (may_rest && rested < runtime.rest) continue;

@@ -24,7 +24,7 @@ constexpr double within = 0.9;  // of a piece, to belong to what was measured
 // Pixels of the smallest piece of a part that says something. A glance that may have missed it says nothing
 // of the regions within: theirs is finer.
 constexpr std::uint32_t smallest_piece = 100;
-// What is followed and was measured so long ago at most is as it was: it lies still, or its track missed it.
+// A track that was measured at most so long ago, and not missed since, still lies where it was.
 constexpr double as_it_was = 0.25;  // s
 // Jobs of pictures that are gone are put away so many at a time, that a step ends.
 constexpr int most_outdated = 64;
@@ -62,10 +62,12 @@ std::uint16_t kind_of(std::uint8_t pixel_class) {
                                         : static_cast<std::uint16_t>(pixel_class - class_first_part);
 }
 
-/// What was measured is what lies in the middle of what a glance saw, or that is a piece of it. It may have
-/// been found to be neither part nor obstacle.
+/// The verdict is about the thing in the middle of a glance, or the glance saw a piece of that thing. A blob
+/// of a part's colour may have been measured to be no part; whatever is foreign is measured each time, as it
+/// may be an obstacle.
 bool shows(const VisionVerdict& verdict, const Glance& at) {
   if (verdict.kind != kind_of(at.pixel_class)) return false;
+  if (verdict.verdict == VisualClass::nothing && at.pixel_class == class_foreign) return false;
   const PixelRectangle box{verdict.left, verdict.top, verdict.width, verdict.height};
   const int common = common_part(box, at.middle).area();
   return at.is_cut ? common > within * at.middle.area()
@@ -89,7 +91,7 @@ PixelRectangle within_picture(const Eigen::AlignedBox2d& box) {
   return common_part(whole, {0, 0, int{picture_width}, int{picture_height}});
 }
 
-/// What shows an upright cylinder in the picture; empty: the camera stands below its top.
+/// The part of the picture that an upright cylinder takes up; empty: the camera stands below its top.
 PixelRectangle shown(const Eigen::Vector2d& middle, double radius, double height, const CameraView& view) {
   Eigen::AlignedBox2d box;
   for (const double across : {-radius, radius}) {
@@ -188,7 +190,7 @@ void Recognition::step(const Tick& /*tick*/) {
       continue;
     }
     ++done;
-    // What was measured at once: the arm may wait for it, and the others need not measure it. The rest waits.
+    // A measurement is published at once: the arm may wait for it, and no other recogniser repeats it.
     if (is_measured_) tell();
   }
   tell();
@@ -283,7 +285,7 @@ void Recognition::measure(const PictureView& picture, const VisionRegion& job, c
   if (findings.empty()) {
     // A glance from too far away may have missed a thing.
     const bool is_close = is_tracked || (at.is_empty() && at.least <= smallest_piece);
-    note_nothing(job, finder_.pixels(), is_close && finder_.is_complete(), at);
+    note_nothing(job, finder_.pixels(), is_close && finder_.is_complete(), is_tracked ? Glance{} : at);
   }
   std::uint8_t part = 0;
   for (const Finding& finding : findings) {
@@ -323,7 +325,7 @@ bool Recognition::find_watched_place(const VisionRegion& job, const CameraView& 
   return true;
 }
 
-/// Where the job's picture shows what was measured in it or just before.
+/// Notes where the job's picture shows the tracks that were measured in it or just before.
 void Recognition::look_at_tracks(const VisionRegion& job, const CameraView& view) noexcept {
   if (followed_in_ == job.frame) return;
   followed_in_ = job.frame;
@@ -374,8 +376,8 @@ bool Recognition::is_flat(const VisionRegion& job) noexcept {
          differs(of->yellow_blue) < flat_colour * light;
 }
 
-/// What was measured in that picture and is the same, by whichever recogniser, or what is followed and was
-/// measured just before; null: there is none.
+/// A verdict of which `same` is true: measured in that picture by any recogniser, or of a track that was
+/// measured just before. Null: there is none.
 template <class Same>
 const VisionVerdict* Recognition::find_answered(std::uint64_t frame, const Same& same) noexcept {
   const auto find_in = [&](const VisionVerdicts& list) -> const VisionVerdict* {
@@ -397,8 +399,8 @@ const VisionVerdict* Recognition::find_answered(std::uint64_t frame, const Same&
   return nullptr;
 }
 
-/// What is known of the part within whose outline the middle of the job's region lies, and whose colour it
-/// has: nothing else does. Null: there is none. Attention often finds a piece of a part.
+/// The verdict on a known part, if the middle of the job's region has its colour and lies within its outline.
+/// Null: there is none. Attention often finds a piece of a part.
 const VisionVerdict* Recognition::find_part_in_the_middle(const PictureView& picture, const VisionRegion& job,
                                                           const CameraView& view) noexcept {
   const int column = job.left + job.width / 2;

@@ -43,7 +43,7 @@ class Recognition final : public RecognitionUnit {
   KnownParts parts_;
   PartFinder finder_;
   VisionVerdicts list_{};
-  // As if measured in the picture of that number.
+  // Verdicts on tracks, as if they had been measured in picture followed_in_.
   std::array<VisionVerdict, std::tuple_size_v<decltype(TrackList::tracks)>> followed_{};
   std::size_t followed_count_ = 0;
   std::optional<std::uint64_t> followed_in_;

@@ -102,23 +102,26 @@ bool is_same(const PartGrasp& one, const PartGrasp& other) {
          std::abs(std::remainder(one.angle - other.angle, pi)) < same_angle;
 }
 
-/// Each with those that look the same, as long as there is room.
-void add_grasps(PartModel& part, const PartDrawing& drawing) {
+/// Adds each grasp with those that look the same. False: there are more than most_grasps.
+bool add_grasps(PartModel& part, const PartDrawing& drawing) {
   constexpr int round_turns = 24;
   const int turns = part.symmetry == 0 ? round_turns : part.symmetry;
   for (const PartGrasp& drawn : drawing.grasps) {
     if (drawn.width == 0) continue;
-    for (int i = 0; i < turns && part.grasp_count < most_grasps; ++i) {
+    for (int i = 0; i < turns; ++i) {
       const double turn = 2 * pi * i / turns;
       PartGrasp grasp = drawn;
       grasp.x = std::cos(turn) * drawn.x - std::sin(turn) * drawn.y;
       grasp.y = std::sin(turn) * drawn.x + std::cos(turn) * drawn.y;
       grasp.angle = drawn.angle + turn;
       const auto known = part.all_grasps();
-      if (std::none_of(known.begin(), known.end(), [&](const PartGrasp& one) { return is_same(one, grasp); }))
-        part.grasps[part.grasp_count++] = grasp;
+      if (std::any_of(known.begin(), known.end(), [&](const PartGrasp& one) { return is_same(one, grasp); }))
+        continue;
+      if (part.grasp_count == most_grasps) return false;
+      part.grasps[part.grasp_count++] = grasp;
     }
   }
+  return true;
 }
 
 PartModel from_drawing(const PartDrawing& drawing) {
@@ -148,6 +151,12 @@ PartModel from_drawing(const PartDrawing& drawing) {
 
 Status KnownParts::take(const PartCatalogue& catalogue) noexcept {
   count_ = 0;
+  const SurfaceColour& table = catalogue.table;
+  if (table.red == 0 || table.green == 0 || table.blue == 0)
+    return Status::error(
+        StatusCode::invalid_argument,
+        "catalogue: the table has no red, green or blue; give the colour of the bare table, by "
+        "which the light is told");
   std::size_t count = 0;
   for (std::size_t i = 0; i < catalogue.parts.size(); ++i) {
     const PartDrawing& drawing = catalogue.parts[i];
@@ -159,7 +168,10 @@ Status KnownParts::take(const PartCatalogue& catalogue) noexcept {
     if (const char* const fault = fault_in(drawing, part); fault != nullptr)
       return Status::error(StatusCode::invalid_argument, "catalogue: '%s' %s", part.name.data(), fault);
     complete(part);
-    add_grasps(part, drawing);
+    if (!add_grasps(part, drawing))
+      return Status::error(StatusCode::invalid_argument,
+                           "catalogue: '%s' has more than %zu grasps, with those that its symmetry makes",
+                           part.name.data(), most_grasps);
     models_[count++] = part;
   }
   if (count == 0)

@@ -52,7 +52,7 @@ void smooth_line(std::uint8_t* first, std::size_t count, std::size_t step,
   }
 }
 
-/// As by a lens out of focus: three times the mean along rows and columns is nearly a Gaussian of 4.5 pixels.
+/// Blurs as a lens out of focus does: three means along rows and columns are nearly a Gaussian of 4.5 pixels.
 /// `line`: room for the longest row or column.
 void blur(std::span<std::uint8_t> rgb, const PictureSize& size, std::span<std::uint8_t> line) noexcept {
   constexpr std::size_t channels = 3;

@@ -84,7 +84,7 @@ bool without_sight_the_arm_holds() {
   });
 }
 
-/// What was laid there meanwhile nobody saw.
+/// Something may have been laid there meanwhile.
 bool after_it_was_blind_the_whole_table_is_looked_at() {
   return at_each_stage([](PickerWorld& world, PickerState stage) {
     world.sees = false;

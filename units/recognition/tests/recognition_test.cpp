@@ -292,11 +292,12 @@ bool beside_what_was_no_part_a_part_is_found() {
   return no_part && world->count() == 2 && !world->last().repeated && world->last_is(0, block_pose);
 }
 
-/// It is too small to be anything, for the next region as for this one.
-bool what_was_no_part_is_not_measured_again() {
+/// A speck of a part's colour is too little of the part, for the second region as for the first. A foreign
+/// one may be an obstacle, and is measured each time.
+bool no_part_is_not_measured_again(SurfaceColour colour, bool is_repeated) {
   const auto world = std::make_unique<World>();
   const Eigen::Vector2d speck(0.45, 0.12);
-  world->table.put(rectangle_of_tests(0.012, 0.012, 0.002, {70, 70, 75}), {speck, 0});
+  world->table.put(rectangle_of_tests(0.012, 0.012, 0.002, colour), {speck, 0});
   world->frames.draw(world->table.picture(4));
   world->give();
   world->found.push(world->job_at(speck, 0.06));
@@ -304,9 +305,21 @@ bool what_was_no_part_is_not_measured_again() {
   const VisionVerdict first = world->last();
   world->found.push(world->job_at(speck + Eigen::Vector2d(0.006, 0.004), 0.05));
   world->step();
-  return first.verdict == VisualClass::nothing && !first.repeated && first.width > 0 &&
-         first.kind == no_kind && world->count() == 2 && world->last().repeated &&
-         world->last().verdict == VisualClass::nothing;
+  return first.verdict == VisualClass::nothing && !first.repeated && first.width > 0 && world->count() == 2 &&
+         world->last().repeated == is_repeated && world->last().verdict == VisualClass::nothing;
+}
+
+/// A track's region that shows the table alone says nothing of what attention sees there.
+bool the_empty_region_of_a_track_hides_no_obstacle() {
+  const auto world = std::make_unique<World>();
+  const Eigen::Vector2d place(0.45, 0.12);
+  VisionRegion tracked = world->job_at(place, 0.05);
+  tracked.member = no_member;
+  tracked.track = 4;
+  tracked.kind = no_kind;
+  world->tracked.push(tracked);
+  world->step();
+  return world->last().verdict == VisualClass::nothing && world->last().width == 0;
 }
 
 /// A glance at most of the picture does not see small things: it says nothing of the regions within.
@@ -329,7 +342,7 @@ bool what_a_coarse_glance_misses_is_found() {
   return missed && world->count() == 2 && world->last().verdict == VisualClass::obstacle;
 }
 
-/// What a track was measured to be in the last picture: it is told to whoever asks for it.
+/// A list with one track, confirmed and measured now.
 TrackList one_followed(const World& world, VisualClass found, std::uint16_t kind, const Eigen::Vector2d& at) {
   TrackList list{};
   list.frame = world.frame;
@@ -539,7 +552,9 @@ void repeated(void**) {
   assert_true(what_lies_in_the_box_of_a_part_is_measured());
   assert_true(where_nothing_was_nothing_is_looked_for_again());
   assert_true(beside_what_was_no_part_a_part_is_found());
-  assert_true(what_was_no_part_is_not_measured_again());
+  assert_true(no_part_is_not_measured_again(known_parts()[0].colour, true));
+  assert_true(no_part_is_not_measured_again({70, 70, 75}, false));
+  assert_true(the_empty_region_of_a_track_hides_no_obstacle());
   assert_true(what_a_coarse_glance_misses_is_found());
   assert_true(the_next_picture_is_measured_anew());
 }

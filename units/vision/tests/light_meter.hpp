@@ -1,4 +1,4 @@
-// The light of a picture, for tests of who is told it by the features.
+// LightMeter: measures the light of a picture as the unit of features does, for tests of other units.
 #pragma once
 
 #include "types/visual_features.hpp"

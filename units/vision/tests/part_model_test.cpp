@@ -59,6 +59,13 @@ void a_grasp_is_turned_by_the_symmetry(void**) {
 void what_is_no_part_is_told(void**) {
   assert_string_equal(refusal([](PartCatalogue&) {}).c_str(), "");
   assert_true(tells(refusal([](PartCatalogue& all) { all.parts = {}; }), "there is no part in it"));
+  assert_true(
+      tells(refusal([](PartCatalogue& all) { all.table = {}; }), "give the colour of the bare table"));
+  assert_true(tells(refusal([](PartCatalogue& all) {
+                      all.parts[1].grasps[1] = {0.005, 0, 0, 0.03};
+                      all.parts[1].grasps[2] = {0.006, 0, 0, 0.03};
+                    }),
+                    "'disc' has more than 24 grasps"));
   assert_true(tells(refusal([](PartCatalogue& all) { all.parts[1].set_name(""); }),
                     "part 2 has no name, but one behind it has"));
   assert_true(tells(refusal([](PartCatalogue& all) { all.parts[2].height = 0; }),

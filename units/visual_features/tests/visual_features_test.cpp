@@ -264,7 +264,7 @@ void light(void**) {
   assert_true(is_refused_and_told(PictureState::colour_cast, "light is coloured",
                                   [](World& world) { world.light(0.5, 0.5, 1.5); }));
 }
-/// A mean of so many pixels on either side, along rows and columns, three times.
+/// Replaces each pixel three times by the mean of its neighbours, `reach` on either side.
 void blur(CameraFrame& frame, int reach) {
   const auto along = [&](std::uint8_t* first, int count, int step) {
     std::vector<int> line(static_cast<std::size_t>(count));
